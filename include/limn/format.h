@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The .limn file as plain C structs. A file is mapped, not parsed: the runtime reads these records
+ * in place. Games include limn.h; this header is for tools that look into a file.
+ *
+ * Layout: one header, the chunk directory right behind it, then the chunks. Every chunk starts on a
+ * multiple of 64 bytes from the start of the file, and gaps are zero. All numbers are
+ * little-endian. A reader skips chunks whose kind it does not know, unless they are marked as
+ * required. docs/format.md describes every byte.
+ */
+#ifndef LIMN_FORMAT_H
+#define LIMN_FORMAT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+#define LIMN_STATIC_ASSERT(condition, text) static_assert(condition, text)
+extern "C" {
+#else
+#define LIMN_STATIC_ASSERT(condition, text) _Static_assert(condition, text)
+#endif
+
+#define LIMN_FORMAT_MAGIC "LIMN"
+#define LIMN_FORMAT_VERSION 1u
+
+/// Alignment of the blob in memory and of every chunk in the file, in bytes.
+#define LIMN_FORMAT_ALIGNMENT 64u
+
+/// Rows of a table column are padded with zeros to a multiple of this, at every level.
+#define LIMN_FORMAT_ROW_BLOCK 8u
+
+/// A control index list longer than this stores two bytes per slot instead of one.
+#define LIMN_FORMAT_NARROW_SLOTS 256u
+
+/// The largest local base of a class, in control points: two corners of valence 1000, for instance.
+#define LIMN_FORMAT_CONTROLS_MAX 2048u
+
+/// The `mesh` of a chunk that belongs to the file and not to one of its meshes.
+#define LIMN_FORMAT_NO_MESH 0xffffffffu
+
+/// Chunk kinds: four characters, in file order.
+#define LIMN_FORMAT_KIND(a, b, c, d)                                                               \
+    ((uint32_t)(a) | (uint32_t)(b) << 8 | (uint32_t)(c) << 16 | (uint32_t)(d) << 24)
+
+#define LIMN_CHUNK_INFO                                                                            \
+    LIMN_FORMAT_KIND('I', 'N', 'F', 'O') ///< text, zero-terminated: how the file was baked
+#define LIMN_CHUNK_CLASSES LIMN_FORMAT_KIND('C', 'L', 'A', 'S') ///< limn_file_class[class_count]
+#define LIMN_CHUNK_TABLES                                                                          \
+    LIMN_FORMAT_KIND('T', 'A', 'B', 'L') ///< float[]: the stencil tables of all classes
+#define LIMN_CHUNK_MESH LIMN_FORMAT_KIND('M', 'E', 'S', 'H') ///< limn_file_mesh, one per mesh
+#define LIMN_CHUNK_NAME                                                                            \
+    LIMN_FORMAT_KIND('N', 'A', 'M', 'E') ///< text, zero-terminated, one per mesh
+#define LIMN_CHUNK_CONTROLS                                                                        \
+    LIMN_FORMAT_KIND('C', 'T', 'R', 'L') ///< float[control_count][3]: the bind pose
+#define LIMN_CHUNK_RUNS LIMN_FORMAT_KIND('R', 'U', 'N', 'S') ///< limn_file_run[run_count]
+#define LIMN_CHUNK_FACES                                                                           \
+    LIMN_FORMAT_KIND('F', 'A', 'C', 'E') ///< uint32_t[patch_count]: see limn_patch_face
+#define LIMN_CHUNK_INDICES                                                                         \
+    LIMN_FORMAT_KIND('I', 'N', 'D', 'X') ///< uint32_t[]: control indices of the patches
+#define LIMN_CHUNK_SLOTS                                                                           \
+    LIMN_FORMAT_KIND('S', 'L', 'O', 'T') ///< uint8_t[] or uint16_t[]: slots, parallel to INDX
+
+/// Bit of limn_file_chunk.flags: a reader that does not know this chunk must refuse the file.
+#define LIMN_CHUNK_REQUIRED 1u
+
+typedef struct limn_file_header {
+    char magic[4];     ///< "LIMN"
+    uint32_t version;  ///< LIMN_FORMAT_VERSION
+    uint64_t size;     ///< of the whole file, in bytes
+    uint64_t checksum; ///< XXH64 with seed 0 of the bytes from `chunk_count` to the end of the file
+    uint32_t chunk_count; ///< entries of the directory that follows the header
+    uint32_t mesh_count;
+    uint32_t class_count;
+    uint32_t reserved[7]; ///< zero
+} limn_file_header;
+
+typedef struct limn_file_chunk {
+    uint32_t kind;  ///< LIMN_CHUNK_…
+    uint32_t mesh;  ///< index of the mesh, or LIMN_FORMAT_NO_MESH
+    uint32_t flags; ///< LIMN_CHUNK_REQUIRED or 0
+    uint32_t reserved;
+    uint64_t offset; ///< from the start of the file, a multiple of LIMN_FORMAT_ALIGNMENT
+    uint64_t size;   ///< in bytes, without padding
+} limn_file_chunk;
+
+/// One topology class: a table of `control_count` columns, each with one coefficient per row of the
+/// domain.
+typedef struct limn_file_class {
+    uint64_t table_offset;  ///< of float[control_count][row_stride], in bytes from the start of the
+                            ///< tables chunk
+    uint32_t control_count; ///< K, the size of the local base
+    uint16_t domain;        ///< limn_domain_kind
+    uint16_t depth;         ///< deepest level of the table; its padded row count is the row stride
+    uint16_t valences[4];   ///< of the patch's corners, in row order; 0 beyond the domain's corners
+    uint32_t boundary_corners; ///< bit c: corner c lies on a boundary
+    uint32_t reserved;
+} limn_file_class;
+
+typedef struct limn_file_mesh {
+    uint32_t control_count;
+    uint32_t patch_count;
+    uint32_t run_count;
+    uint32_t domain;      ///< limn_domain_kind
+    uint64_t index_count; ///< entries of the indices chunk
+    float bounds_min[3];  ///< of the control points in the bind pose
+    float bounds_max[3];
+    float origin[3]; ///< see limn_mesh.origin
+    uint32_t reserved;
+} limn_file_mesh;
+
+/// Consecutive patches of one class. Patch p of the run has its control indices at
+/// indices[first_index + p * K], and its slots, one or two bytes each, at first_slot + p * K *
+/// (slot width).
+typedef struct limn_file_run {
+    uint32_t class_index;
+    uint32_t first_patch;
+    uint32_t patch_count;
+    uint32_t reserved;
+    uint64_t first_index; ///< into the indices chunk, in entries
+    uint64_t first_slot;  ///< into the slots chunk, in bytes; even where slots are two bytes wide
+} limn_file_run;
+
+LIMN_STATIC_ASSERT(sizeof(limn_file_header) == 64, "header");
+LIMN_STATIC_ASSERT(offsetof(limn_file_header, checksum) == 16, "header.checksum");
+LIMN_STATIC_ASSERT(offsetof(limn_file_header, chunk_count) == 24, "header.chunk_count");
+LIMN_STATIC_ASSERT(sizeof(limn_file_chunk) == 32, "chunk");
+LIMN_STATIC_ASSERT(offsetof(limn_file_chunk, offset) == 16, "chunk.offset");
+LIMN_STATIC_ASSERT(sizeof(limn_file_class) == 32, "class");
+LIMN_STATIC_ASSERT(offsetof(limn_file_class, valences) == 16, "class.valences");
+LIMN_STATIC_ASSERT(sizeof(limn_file_mesh) == 64, "mesh");
+LIMN_STATIC_ASSERT(offsetof(limn_file_mesh, bounds_min) == 24, "mesh.bounds_min");
+LIMN_STATIC_ASSERT(sizeof(limn_file_run) == 32, "run");
+LIMN_STATIC_ASSERT(offsetof(limn_file_run, first_index) == 16, "run.first_index");
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,252 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Limn draws smooth subdivision surfaces: it multiplies the stencil tables of a baked .limn file
+ * with the current control points and writes triangle vertices. The runtime never allocates,
+ * prints, or keeps state between calls; every buffer is the caller's. A complete use, with `blob`
+ * the mapped file:
+ *
+ *     limn_pack pack;
+ *     limn_result result = limn_pack_open(&pack, blob, blob_size);
+ *     if (result != LIMN_OK) return fail(limn_result_text(result));
+ *     limn_mesh mesh = limn_pack_mesh(&pack, 0);
+ *     limn_plan plan = limn_plan_uniform(&mesh, 3);
+ *     float *vertices = malloc(plan.vertex_count * 3 * sizeof(float));
+ *     limn_output output = {.vertices = vertices};
+ *     limn_evaluate(&plan, mesh.controls, 0, plan.patch_count, &output);
+ *
+ * and drawn, patch by patch, with the static indices mesh.domain->indices[3] and base vertex
+ * limn_plan_first_vertex().
+ *
+ * Words: a *control point* is a vertex of the base mesh; a *patch* is what is drawn for one base
+ * face; a *row* is one vertex of a patch's grid. "Never fails" means: given valid arguments there
+ * is no error to report. A caller's mistake is caught by LIMN_ASSERT.
+ */
+#ifndef LIMN_H
+#define LIMN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define LIMN_VERSION_MAJOR 0
+#define LIMN_VERSION_MINOR 1
+#define LIMN_VERSION_PATCH 0
+
+/// Version of the library that is linked: major << 16 | minor << 8 | patch.
+uint32_t limn_version(void);
+
+// -------------------------------------------------------------------------------------------------
+// Results
+
+/// Why a blob was refused: name, then what happened and what to do.
+#define LIMN_RESULTS(X)                                                                            \
+    X(LIMN_OK, "no error")                                                                         \
+    X(LIMN_ERROR_HOST, "this machine is not little-endian; .limn files are")                       \
+    X(LIMN_ERROR_ALIGNMENT,                                                                        \
+      "the blob does not start on a multiple of 64 bytes; map the file or use aligned_alloc")      \
+    X(LIMN_ERROR_TRUNCATED, "the blob is shorter than the file was; load all of it")               \
+    X(LIMN_ERROR_MAGIC, "the blob is not a .limn file")                                            \
+    X(LIMN_ERROR_VERSION,                                                                          \
+      "the file has another format version; bake it again with this version's baker")              \
+    X(LIMN_ERROR_SIZE, "the blob is longer than the file says; pass the exact size")               \
+    X(LIMN_ERROR_CHECKSUM, "the file is damaged: its checksum does not match")                     \
+    X(LIMN_ERROR_CHUNK, "a chunk is missing, repeated, misaligned or reaches outside the file")    \
+    X(LIMN_ERROR_UNKNOWN_CHUNK, "the file needs a feature that this version does not have")        \
+    X(LIMN_ERROR_TEXT, "a name or the bake description is not zero-terminated")                    \
+    X(LIMN_ERROR_CLASS,                                                                            \
+      "a class has an unknown domain or depth, or its table lies outside the tables")              \
+    X(LIMN_ERROR_TABLE, "a stencil table holds a coefficient that is not finite")                  \
+    X(LIMN_ERROR_MESH, "a mesh's counts disagree with the sizes of its chunks")                    \
+    X(LIMN_ERROR_CONTROLS, "a control point of the bind pose is not finite")                       \
+    X(LIMN_ERROR_RUN, "the runs of a mesh do not cover its patches one after the other")           \
+    X(LIMN_ERROR_FACE, "a patch names a face or a rotation that does not exist")                   \
+    X(LIMN_ERROR_INDEX, "a patch's control indices are out of range or not ascending")             \
+    X(LIMN_ERROR_SLOT, "a patch's slot lies outside its class")
+
+typedef enum limn_result {
+#define LIMN_RESULT_NAME(name, text) name,
+    LIMN_RESULTS(LIMN_RESULT_NAME)
+#undef LIMN_RESULT_NAME
+} limn_result;
+
+/// One sentence: what happened and what to do. Static storage; never NULL, whatever `result` is.
+const char *limn_result_text(limn_result result);
+
+// -------------------------------------------------------------------------------------------------
+// Domains
+
+#define LIMN_LEVEL_COUNT 5 ///< levels 0 to 4
+#define LIMN_LEVEL_MAX 4
+#define LIMN_CORNER_MAX 4 ///< corners of any domain
+#define LIMN_GRID_SIZE 16 ///< grid steps along a patch edge at LIMN_LEVEL_MAX
+
+typedef enum limn_domain_kind {
+    LIMN_DOMAIN_TRIANGLE, ///< v0 + i/16 (v1 - v0) + j/16 (v2 - v0), i + j <= 16
+    LIMN_DOMAIN_COUNT
+} limn_domain_kind;
+
+/// One vertex of a patch's grid.
+typedef struct limn_row {
+    uint8_t i, j;        ///< grid coordinates, 0 to LIMN_GRID_SIZE
+    uint8_t level;       ///< the first level that has this row
+    uint8_t edges;       ///< bit e: the row lies on edge e, from corner e to corner e + 1
+    uint16_t parents[2]; ///< the rows of the level before between which it appears; itself, twice,
+                         ///< at level 0
+} limn_row;
+
+/// The rows of one edge along its direction.
+typedef uint16_t limn_edge_rows[LIMN_GRID_SIZE + 1];
+
+/// The parametric shape of a patch. Rows are nested: the rows of level n are the first
+/// row_counts[n] of the finest, and the very first are the corners. Everything here is static and
+/// depends on nothing but the shape.
+typedef struct limn_domain {
+    limn_domain_kind kind;
+    uint32_t corner_count; ///< corners, and edges; edge e runs from corner e to e + 1
+    uint16_t row_counts[LIMN_LEVEL_COUNT];        ///< vertices of a patch
+    uint16_t padded_row_counts[LIMN_LEVEL_COUNT]; ///< the same, rounded up to LIMN_FORMAT_ROW_BLOCK
+    uint16_t index_counts[LIMN_LEVEL_COUNT];      ///< three per triangle
+    const uint16_t *indices[LIMN_LEVEL_COUNT];    ///< counter-clockwise triangles of a patch
+    const limn_row *rows;                         ///< [row_counts[LIMN_LEVEL_MAX]]
+    const limn_edge_rows *edge_rows;              ///< [corner_count]
+} limn_domain;
+
+/// The domain of a kind. Never fails; any thread.
+const limn_domain *limn_domain_get(limn_domain_kind kind);
+
+// -------------------------------------------------------------------------------------------------
+// Kernels
+
+/// Instruction sets, as bits of a mask.
+typedef enum limn_isa {
+    LIMN_ISA_SCALAR = 1 << 0, ///< always there
+    LIMN_ISA_SSE2 = 1 << 1,
+    LIMN_ISA_ALL = 0x7fffffff
+} limn_isa;
+
+/// The kernels of one instruction set: opaque and static.
+typedef struct limn_kernels limn_kernels;
+
+/// The instruction sets that this library was built with and this CPU has. Never fails; any thread.
+uint32_t limn_isa_supported(void);
+
+/// The best supported kernels among the instruction sets in `isa_mask`; scalar ones if there is no
+/// other. All of them give the same bits. Never fails; any thread.
+const limn_kernels *limn_kernels_select(uint32_t isa_mask);
+
+/// "scalar", "sse2", …
+const char *limn_kernels_name(const limn_kernels *kernels);
+
+// -------------------------------------------------------------------------------------------------
+// Packs and meshes
+
+/// A view of one .limn file: stencil tables and the meshes that share them. Plain data; copy it
+/// freely. It is valid for as long as the blob is, and never writes to it.
+typedef struct limn_pack {
+    const void *blob;
+    size_t blob_size;
+    const char *info; ///< how the file was baked, as words `key=value`
+    uint32_t mesh_count;
+    uint32_t class_count;
+    const limn_kernels *kernels; ///< limn_kernels_select(LIMN_ISA_ALL); replace it to use another
+} limn_pack;
+
+/// A view of one mesh of a pack. Plain data; copy it freely.
+typedef struct limn_mesh {
+    const char *name;
+    const limn_domain *domain;
+    const float *controls; ///< [control_count][3]: the bind pose, model units
+    uint32_t control_count;
+    uint32_t patch_count; ///< one per base face
+    uint32_t run_count;   ///< patches are ordered by class: runs of one class each
+    float bounds_min[3];  ///< of the bind pose's control points
+    float bounds_max[3];
+    float origin[3]; ///< sums are taken relative to this point and it is added last, so that
+                     ///< precision does not suffer far from 0; baked as 0, or the middle of bounds
+                     ///< that do not contain 0; may be replaced, by the same value for all patches
+    const uint32_t *faces; ///< [patch_count]: read with limn_mesh_face()
+    const uint32_t *indices;
+    const uint8_t *slots;
+    const float *tables;
+    const struct limn_file_run *runs;
+    const struct limn_file_class *classes;
+    const limn_kernels *kernels;
+} limn_mesh;
+
+/// Opens a .limn file in memory and validates all of it, so that nothing needs to be checked later.
+/// Safe on untrusted bytes. Does not allocate; takes time linear in blob_size; any thread.
+///
+/// pack       out: the view; untouched unless the result is LIMN_OK
+/// blob       [blob_size] bytes, starting on a multiple of 64; must outlive the view
+/// blob_size  the exact size of the file
+limn_result limn_pack_open(limn_pack *pack, const void *blob, size_t blob_size);
+
+/// The view of mesh `mesh_index` < pack->mesh_count. Does not allocate; never fails; any thread.
+limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index);
+
+/// The base face that a patch draws.
+typedef struct limn_patch_face {
+    uint32_t face; ///< index of the face in the triangulated source mesh
+    uint32_t
+        rotation; ///< corner c of the patch is corner (c + rotation) mod corner_count of the face
+} limn_patch_face;
+
+/// The base face of patch `patch_index` < mesh->patch_count. Never fails; any thread.
+limn_patch_face limn_mesh_face(const limn_mesh *mesh, uint32_t patch_index);
+
+/// The control points at the corners of patch `patch_index` < mesh->patch_count, in the order of the
+/// patch's corners, rows 0, 1, …: where each of them has its limit. Never fails; any thread.
+///
+/// corners  out: [domain->corner_count], the rest is left alone
+void limn_mesh_corners(const limn_mesh *mesh, uint32_t patch_index,
+                       uint32_t corners[LIMN_CORNER_MAX]);
+
+// -------------------------------------------------------------------------------------------------
+// Plans and evaluation
+
+/// One frame's decisions: which patches are drawn, at which level, and where their vertices go.
+/// Patch p writes domain->row_counts[level] vertices from limn_plan_first_vertex() on.
+typedef struct limn_plan {
+    const limn_mesh *mesh; ///< must outlive the plan
+    uint32_t level;
+    uint32_t patch_count;
+    uint64_t vertex_count; ///< of all patches: what the output must hold
+    uint64_t index_count;  ///< of all patches: three per triangle
+} limn_plan;
+
+/// Every patch of the mesh at one level, 0 to LIMN_LEVEL_MAX. Does not allocate; never fails; any
+/// thread.
+limn_plan limn_plan_uniform(const limn_mesh *mesh, uint32_t level);
+
+/// Index of the first vertex of a patch in the output: the base vertex to draw its indices with.
+uint64_t limn_plan_first_vertex(const limn_plan *plan, uint32_t patch_index);
+
+/// Where vertices go.
+typedef struct limn_output {
+    void *vertices; ///< vertex 0 of the *plan*, aligned to 4 bytes; written forward within a patch,
+                    ///< never read
+    uint32_t stride; ///< bytes from vertex to vertex, a multiple of 4; 0 means 12, tightly packed
+} limn_output;
+
+/// Evaluates patches [begin, end) of a plan and writes their positions, three floats at the start
+/// of each vertex. Does not allocate, never fails; any number of threads may evaluate disjoint
+/// ranges of one plan into one output. Bytes of a vertex behind its position are left alone. The
+/// same input gives the same bits with every kernel, and shared vertices of neighbouring patches
+/// get the same bits.
+///
+/// controls    [mesh->control_count][3] floats, model units, tightly packed; must not overlap the
+///             output
+/// begin, end  0 <= begin <= end <= plan->patch_count; an empty range is a no-op
+/// output      room for plan->vertex_count vertices, of which only those of the range are written
+void limn_evaluate(const limn_plan *plan, const float *controls, uint32_t begin, uint32_t end,
+                   const limn_output *output);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

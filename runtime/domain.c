@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: MIT */
+#include "domain.h"
+#include "require.h"
+
+const limn_domain *limn_domain_get(limn_domain_kind kind) {
+    static const limn_domain *const domains[LIMN_DOMAIN_COUNT] = {
+        [LIMN_DOMAIN_TRIANGLE] = &limni_domain_triangle,
+    };
+    LIMNI_REQUIRE((unsigned)kind < LIMN_DOMAIN_COUNT, domains[0]);
+    return domains[kind];
+}

@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Writes domain_triangle.c to standard output. The result is committed, so that cross builds need
+ * no host program; the test `domain_generated` compares the two. A second domain is a second
+ * description here (its grid test, its edges, its cells), and the same tables.
+ */
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { LEVEL_COUNT = 5, LEVEL_MAX = 4, GRID = 16, ROW_BLOCK = 8, CORNERS = 3, ROW_MAX = 153 };
+
+typedef struct point {
+    int i, j;
+} point;
+
+static const point corners[CORNERS] = {{0, 0}, {GRID, 0}, {0, GRID}};
+
+static point rows[ROW_MAX];
+static int row_levels[ROW_MAX];
+static int row_count;
+static int row_counts[LEVEL_COUNT];
+
+static int row_at(int i, int j) {
+    for (int row = 0; row < row_count; row++) {
+        if (rows[row].i == i && rows[row].j == j) return row;
+    }
+    fprintf(stderr, "no row at (%d, %d)\n", i, j);
+    exit(1);
+}
+
+static bool has_row(int i, int j) {
+    for (int row = 0; row < row_count; row++) {
+        if (rows[row].i == i && rows[row].j == j) return true;
+    }
+    return false;
+}
+
+static point edge_point(int edge, int t) {
+    const point a = corners[edge], b = corners[(edge + 1) % CORNERS];
+    return (point){a.i + (b.i - a.i) / GRID * t, a.j + (b.j - a.j) / GRID * t};
+}
+
+static int edges_of(point p) {
+    return (p.j == 0 ? 1 : 0) | (p.i + p.j == GRID ? 2 : 0) | (p.i == 0 ? 4 : 0);
+}
+
+static void add_row(point p, int level) {
+    if (has_row(p.i, p.j)) return;
+    row_levels[row_count] = level;
+    rows[row_count++] = p;
+}
+
+// Nested order: what level n adds comes after all of level n - 1; edges first, each along its
+// direction, then the interior row by row.
+static void number_rows(void) {
+    for (int level = 0; level < LEVEL_COUNT; level++) {
+        const int step = GRID >> level;
+        for (int corner = 0; corner < CORNERS; corner++)
+            add_row(corners[corner], level);
+        for (int edge = 0; edge < CORNERS; edge++) {
+            for (int t = step; t < GRID; t += step)
+                add_row(edge_point(edge, t), level);
+        }
+        for (int j = 0; j <= GRID; j += step) {
+            for (int i = 0; i + j <= GRID; i += step)
+                add_row((point){i, j}, level);
+        }
+        row_counts[level] = row_count;
+    }
+}
+
+static void print_rows(void) {
+    printf("static const limn_row rows[%d] = {\n", row_count);
+    for (int row = 0; row < row_count; row++) {
+        const point p = rows[row];
+        const int step = GRID >> row_levels[row];
+        int a = row, b = row;
+        if (row_levels[row] > 0) {
+            // The direction in which the coordinates are odd multiples of the step is the spawning
+            // edge.
+            const int di = p.i / step % 2 * step, dj = p.j / step % 2 * step;
+            a = di && dj ? row_at(p.i + di, p.j - dj) : row_at(p.i - di, p.j - dj);
+            b = di && dj ? row_at(p.i - di, p.j + dj) : row_at(p.i + di, p.j + dj);
+        }
+        printf("    {%d, %d, %d, %d, {%d, %d}},\n", p.i, p.j, row_levels[row], edges_of(p), a, b);
+    }
+    printf("};\n\n");
+}
+
+static void print_edges(void) {
+    printf("static const limn_edge_rows edge_rows[%d] = {\n", CORNERS);
+    for (int edge = 0; edge < CORNERS; edge++) {
+        printf("    {");
+        for (int t = 0; t <= GRID; t++) {
+            const point p = edge_point(edge, t);
+            printf("%d%s", row_at(p.i, p.j), t < GRID ? ", " : "},\n");
+        }
+    }
+    printf("};\n\n");
+}
+
+static int index_total;
+
+static void print_triangle(point a, point b, point c) {
+    printf("    %d, %d, %d,\n", row_at(a.i, a.j), row_at(b.i, b.j), row_at(c.i, c.j));
+    index_total += 3;
+}
+
+static int print_indices(int level) {
+    const int step = GRID >> level;
+    index_total = 0;
+    printf("static const uint16_t indices_%d[] = {\n", level);
+    for (int j = 0; j < GRID; j += step) {
+        for (int i = 0; i + j < GRID; i += step) {
+            const point a = {i, j}, b = {i + step, j}, c = {i, j + step}, d = {i + step, j + step};
+            print_triangle(a, b, c);
+            if (d.i + d.j <= GRID) print_triangle(b, d, c);
+        }
+    }
+    printf("};\n\n");
+    return index_total;
+}
+
+static void print_list(const char *name, const int values[LEVEL_COUNT]) {
+    printf("    .%s = {", name);
+    for (int level = 0; level < LEVEL_COUNT; level++)
+        printf("%d%s", values[level], level < LEVEL_MAX ? ", " : "},\n");
+}
+
+int main(void) {
+    int index_counts[LEVEL_COUNT], padded[LEVEL_COUNT];
+    number_rows();
+    printf("/* SPDX-License-Identifier: MIT */\n"
+           "/* Written by generate_domain.c; do not edit. */\n"
+           "#include \"domain.h\"\n\n// clang-format off\n");
+    print_rows();
+    print_edges();
+    for (int level = 0; level < LEVEL_COUNT; level++) {
+        index_counts[level] = print_indices(level);
+        padded[level] = (row_counts[level] + ROW_BLOCK - 1) / ROW_BLOCK * ROW_BLOCK;
+    }
+    printf("const limn_domain limni_domain_triangle = {\n"
+           "    .kind = LIMN_DOMAIN_TRIANGLE,\n    .corner_count = %d,\n",
+           CORNERS);
+    print_list("row_counts", row_counts);
+    print_list("padded_row_counts", padded);
+    print_list("index_counts", index_counts);
+    printf("    .indices = {indices_0, indices_1, indices_2, indices_3, indices_4},\n"
+           "    .rows = rows,\n    .edge_rows = edge_rows,\n};\n");
+    return 0;
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * One table of kernels per instruction set. To add an instruction set: a lanes_<isa>.h, a
+ * kernels_<isa>.c and a line in kernels.c. To add a kernel: a body and a field.
+ */
+#ifndef LIMNI_KERNELS_H
+#define LIMNI_KERNELS_H
+
+#include "limn/format.h"
+#include "limn/limn.h"
+
+/// The largest padded row count of any domain.
+#define LIMNI_ROW_MAX 160
+
+/// A row with more terms than this is summed with compensation. Both patches that share a row see
+/// the same terms, so they agree on how to sum it.
+#define LIMNI_PLAIN_TERMS 24
+
+/// Consecutive patches of one class.
+typedef struct limni_run {
+    const float *table;      ///< [control_count][row_stride], columns aligned to 32 bytes
+    const uint32_t *indices; ///< [patch_count][control_count], ascending within a patch
+    const void *slots;       ///< the same shape, slot_size bytes each
+    uint32_t control_count;
+    uint32_t row_stride;
+    uint32_t slot_size; ///< 1 or 2
+    uint32_t patch_count;
+} limni_run;
+
+/// Where control points come from.
+typedef struct limni_points {
+    const float *controls; ///< [][3]
+    const float *origin;   ///< [3] subtracted from every control point, and added to every row
+} limni_points;
+
+/// Where the vertices of a run go, one patch behind the other.
+typedef struct limni_target {
+    unsigned char *vertices; ///< aligned to 4 bytes
+    size_t stride;           ///< bytes from vertex to vertex
+    uint32_t row_count;      ///< rows that are written
+    uint32_t padded_row_count;
+} limni_target;
+
+/// Bytes per slot of the patches of a class.
+static inline uint32_t limni_slot_size(const limn_file_class *class) {
+    return class->control_count <= LIMN_FORMAT_NARROW_SLOTS ? 1 : 2;
+}
+
+struct limn_kernels {
+    const char *name;
+    uint32_t isa;
+    void (*evaluate)(const limni_run *run, const limni_points *points, const limni_target *target);
+};
+
+extern const limn_kernels limni_kernels_scalar;
+#if defined(__SSE2__)
+extern const limn_kernels limni_kernels_sse2;
+#endif
+
+#endif

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: MIT */
+#include "mesh.h"
+
+#include "require.h"
+
+uint32_t limni_find_run(const limn_mesh *mesh, uint32_t patch_index) {
+    uint32_t low = 0, high = mesh->run_count;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (mesh->runs[middle].first_patch <= patch_index) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+limni_run limni_run_part(const limn_mesh *mesh, const limn_file_run *run, uint32_t begin,
+                         uint32_t end) {
+    const limn_file_class *const class = &mesh->classes[run->class_index];
+    const uint32_t slot_size = limni_slot_size(class);
+    const size_t skipped = (size_t)begin * class->control_count;
+    return (limni_run){
+        .table = mesh->tables + class->table_offset / sizeof(float),
+        .indices = mesh->indices + run->first_index + skipped,
+        .slots = mesh->slots + run->first_slot + skipped * slot_size,
+        .control_count = class->control_count,
+        .row_stride = mesh->domain->padded_row_counts[class->depth],
+        .slot_size = slot_size,
+        .patch_count = end - begin,
+    };
+}
+
+limn_patch_face limn_mesh_face(const limn_mesh *mesh, uint32_t patch_index) {
+    LIMNI_REQUIRE(mesh && patch_index < mesh->patch_count, (limn_patch_face){0});
+    const uint32_t packed = mesh->faces[patch_index];
+    return (limn_patch_face){.face = packed >> 2, .rotation = packed & 3};
+}
+
+void limn_mesh_corners(const limn_mesh *mesh, uint32_t patch_index,
+                       uint32_t corners[LIMN_CORNER_MAX]) {
+    LIMNI_REQUIRE(mesh && corners && patch_index < mesh->patch_count, );
+    const limn_file_run *const run = &mesh->runs[limni_find_run(mesh, patch_index)];
+    const uint32_t in_run = patch_index - run->first_patch;
+    const limni_run patch = limni_run_part(mesh, run, in_run, in_run + 1);
+    const uint8_t *const narrow = patch.slots;
+    const uint16_t *const wide = patch.slots;
+    for (uint32_t k = 0; k < patch.control_count; k++) {
+        const uint32_t slot = patch.slot_size == 1 ? narrow[k] : wide[k];
+        if (slot < mesh->domain->corner_count) corners[slot] = patch.indices[k];
+    }
+}

@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Opening a file: every offset, count and index is checked here, once, so that nothing else in the
+ * runtime needs to. The checks go from the outside in; each may rely on those before it.
+ */
+#include "checksum.h"
+#include "kernels.h"
+#include "limn/format.h"
+#include "limn/limn.h"
+#include "require.h"
+
+#include <string.h>
+
+#define TRY(call)                                                                                  \
+    do {                                                                                           \
+        const limn_result try_result = (call);                                                     \
+        if (try_result != LIMN_OK) return try_result;                                              \
+    } while (0)
+
+// ---- Chunks
+
+static const unsigned char *bytes_at(const limn_pack *pack, uint64_t offset) {
+    return (const unsigned char *)pack->blob + offset;
+}
+
+static const limn_file_header *header_of(const limn_pack *pack) {
+    return (const limn_file_header *)pack->blob;
+}
+
+static const limn_file_chunk *directory_of(const limn_pack *pack) {
+    return (const limn_file_chunk *)(const void *)bytes_at(pack, sizeof(limn_file_header));
+}
+
+/// The directory is sorted by this: the chunks of the file first, then mesh by mesh.
+static uint64_t chunk_key(uint32_t mesh, uint32_t kind) {
+    return (uint64_t)(uint32_t)(mesh + 1) << 32 | kind;
+}
+
+static const limn_file_chunk *find_chunk(const limn_pack *pack, uint32_t mesh, uint32_t kind) {
+    const limn_file_chunk *const chunks = directory_of(pack);
+    const uint64_t key = chunk_key(mesh, kind);
+    uint32_t low = 0, high = header_of(pack)->chunk_count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        const uint64_t other = chunk_key(chunks[middle].mesh, chunks[middle].kind);
+        if (other == key) return &chunks[middle];
+        if (other < key) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return NULL;
+}
+
+/// The start of a chunk that validation has found to be there.
+static const void *chunk_data(const limn_pack *pack, uint32_t mesh, uint32_t kind) {
+    return bytes_at(pack, find_chunk(pack, mesh, kind)->offset);
+}
+
+static bool chunk_has_size(const limn_pack *pack, uint32_t mesh, uint32_t kind, uint64_t count,
+                           size_t record_size) {
+    const limn_file_chunk *const chunk = find_chunk(pack, mesh, kind);
+    return chunk && chunk->size % record_size == 0 && chunk->size / record_size == count;
+}
+
+static bool is_known(const limn_file_chunk *chunk) {
+    static const uint32_t of_file[] = {LIMN_CHUNK_INFO, LIMN_CHUNK_CLASSES, LIMN_CHUNK_TABLES};
+    static const uint32_t of_mesh[] = {LIMN_CHUNK_MESH, LIMN_CHUNK_NAME,  LIMN_CHUNK_CONTROLS,
+                                       LIMN_CHUNK_RUNS, LIMN_CHUNK_FACES, LIMN_CHUNK_INDICES,
+                                       LIMN_CHUNK_SLOTS};
+    const bool in_file = chunk->mesh == LIMN_FORMAT_NO_MESH;
+    const uint32_t *const kinds = in_file ? of_file : of_mesh;
+    const size_t count =
+        in_file ? sizeof of_file / sizeof *of_file : sizeof of_mesh / sizeof *of_mesh;
+    for (size_t k = 0; k < count; k++) {
+        if (chunk->kind == kinds[k]) return true;
+    }
+    return false;
+}
+
+// ---- Validation of the file
+
+static bool host_is_little_endian(void) {
+    const uint32_t one = 1;
+    unsigned char first;
+    memcpy(&first, &one, 1);
+    return first == 1;
+}
+
+static limn_result validate_header(const limn_pack *pack) {
+    const limn_file_header *const header = header_of(pack);
+    if (!host_is_little_endian()) return LIMN_ERROR_HOST;
+    if ((uintptr_t)pack->blob % LIMN_FORMAT_ALIGNMENT != 0) return LIMN_ERROR_ALIGNMENT;
+    if (pack->blob_size < sizeof *header) return LIMN_ERROR_TRUNCATED;
+    if (memcmp(header->magic, LIMN_FORMAT_MAGIC, sizeof header->magic) != 0)
+        return LIMN_ERROR_MAGIC;
+    if (header->version != LIMN_FORMAT_VERSION) return LIMN_ERROR_VERSION;
+    if (header->size > pack->blob_size) return LIMN_ERROR_TRUNCATED;
+    if (header->size < pack->blob_size) return LIMN_ERROR_SIZE;
+
+    const size_t summed = offsetof(limn_file_header, chunk_count);
+    if (header->checksum != limni_checksum(bytes_at(pack, summed), pack->blob_size - summed))
+        return LIMN_ERROR_CHECKSUM;
+    return LIMN_OK;
+}
+
+static limn_result validate_directory(const limn_pack *pack) {
+    const limn_file_header *const header = header_of(pack);
+    const uint64_t room = pack->blob_size - sizeof *header;
+    if (room / sizeof(limn_file_chunk) < header->chunk_count) return LIMN_ERROR_CHUNK;
+
+    uint64_t last_key = 0;
+    for (uint32_t c = 0; c < header->chunk_count; c++) {
+        const limn_file_chunk *const chunk = &directory_of(pack)[c];
+        const uint64_t key = chunk_key(chunk->mesh, chunk->kind);
+        if (c > 0 && key <= last_key) return LIMN_ERROR_CHUNK;
+        last_key = key;
+        if (chunk->mesh != LIMN_FORMAT_NO_MESH && chunk->mesh >= header->mesh_count)
+            return LIMN_ERROR_CHUNK;
+        if (chunk->offset % LIMN_FORMAT_ALIGNMENT != 0 || chunk->offset > pack->blob_size ||
+            chunk->size > pack->blob_size - chunk->offset)
+            return LIMN_ERROR_CHUNK;
+        if (chunk->flags & LIMN_CHUNK_REQUIRED && !is_known(chunk)) return LIMN_ERROR_UNKNOWN_CHUNK;
+    }
+    return LIMN_OK;
+}
+
+static limn_result validate_text(const limn_pack *pack, uint32_t mesh, uint32_t kind) {
+    const limn_file_chunk *const chunk = find_chunk(pack, mesh, kind);
+    if (!chunk) return LIMN_ERROR_CHUNK;
+    const unsigned char *const text = bytes_at(pack, chunk->offset);
+    if (chunk->size == 0 || text[chunk->size - 1] != '\0') return LIMN_ERROR_TEXT;
+    return LIMN_OK;
+}
+
+// ---- Validation of the tables
+
+static bool all_finite(const void *floats, size_t count) {
+    const uint32_t *const bits = floats;
+    uint32_t bad = 0;
+    for (size_t f = 0; f < count; f++)
+        bad |= (bits[f] & 0x7f800000u) == 0x7f800000u;
+    return !bad;
+}
+
+static limn_result validate_classes(const limn_pack *pack) {
+    if (!chunk_has_size(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_CLASSES, pack->class_count,
+                        sizeof(limn_file_class)))
+        return LIMN_ERROR_CHUNK;
+    const limn_file_chunk *const tables = find_chunk(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES);
+    if (!tables || tables->size % sizeof(float) != 0) return LIMN_ERROR_CHUNK;
+
+    const limn_file_class *const classes =
+        chunk_data(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_CLASSES);
+    for (uint32_t c = 0; c < pack->class_count; c++) {
+        const limn_file_class *const class = &classes[c];
+        if (class->domain >= LIMN_DOMAIN_COUNT || class->depth != LIMN_LEVEL_MAX ||
+            class->control_count == 0 || class->control_count > LIMN_FORMAT_CONTROLS_MAX)
+            return LIMN_ERROR_CLASS;
+        const limn_domain *const domain = limn_domain_get((limn_domain_kind) class->domain);
+        const uint64_t column_size = domain->padded_row_counts[class->depth] * sizeof(float);
+        if (class->table_offset % LIMN_FORMAT_ALIGNMENT != 0 ||
+            class->table_offset > tables->size ||
+            class->control_count > (tables->size - class->table_offset) / column_size)
+            return LIMN_ERROR_CLASS;
+    }
+    if (!all_finite(bytes_at(pack, tables->offset), (size_t)tables->size / sizeof(float)))
+        return LIMN_ERROR_TABLE;
+    return LIMN_OK;
+}
+
+// ---- Validation of a mesh
+
+static limn_result validate_mesh_sizes(const limn_pack *pack, uint32_t m) {
+    if (!chunk_has_size(pack, m, LIMN_CHUNK_MESH, 1, sizeof(limn_file_mesh)))
+        return LIMN_ERROR_CHUNK;
+    const limn_file_mesh *const record = chunk_data(pack, m, LIMN_CHUNK_MESH);
+    if (record->domain >= LIMN_DOMAIN_COUNT ||
+        !chunk_has_size(pack, m, LIMN_CHUNK_CONTROLS, record->control_count, 3 * sizeof(float)) ||
+        !chunk_has_size(pack, m, LIMN_CHUNK_RUNS, record->run_count, sizeof(limn_file_run)) ||
+        !chunk_has_size(pack, m, LIMN_CHUNK_FACES, record->patch_count, sizeof(uint32_t)) ||
+        !chunk_has_size(pack, m, LIMN_CHUNK_INDICES, record->index_count, sizeof(uint32_t)) ||
+        !find_chunk(pack, m, LIMN_CHUNK_SLOTS))
+        return LIMN_ERROR_MESH;
+    return LIMN_OK;
+}
+
+/// Runs follow one another without gaps, in patches, in indices and in slots, and use up all of
+/// them.
+static limn_result validate_runs(const limn_pack *pack, const limn_mesh *mesh, uint64_t index_count,
+                                 uint64_t slots_size) {
+    uint64_t patch = 0, index = 0, slot = 0;
+    for (uint32_t r = 0; r < mesh->run_count; r++) {
+        const limn_file_run *const run = &mesh->runs[r];
+        if (run->class_index >= pack->class_count) return LIMN_ERROR_RUN;
+        const limn_file_class *const class = &mesh->classes[run->class_index];
+        const uint32_t slot_size = limni_slot_size(class);
+        slot += slot % slot_size;
+        if (class->domain != mesh->domain->kind || run->patch_count == 0 ||
+            run->first_patch != patch || run->first_index != index || run->first_slot != slot)
+            return LIMN_ERROR_RUN;
+        const uint64_t count = (uint64_t)run->patch_count * class->control_count;
+        if (count > index_count - index || count * slot_size > slots_size - slot)
+            return LIMN_ERROR_RUN;
+        patch += run->patch_count;
+        index += count;
+        slot += count * slot_size;
+    }
+    if (patch != mesh->patch_count || index != index_count || slot != slots_size)
+        return LIMN_ERROR_RUN;
+    return LIMN_OK;
+}
+
+static limn_result validate_indices(const limn_mesh *mesh, const limn_file_run *run) {
+    const uint32_t control_count = mesh->classes[run->class_index].control_count;
+    const uint32_t *indices = mesh->indices + run->first_index;
+    for (uint32_t p = 0; p < run->patch_count; p++, indices += control_count) {
+        bool ascending = true;
+        for (uint32_t k = 1; k < control_count; k++)
+            ascending &= indices[k - 1] < indices[k];
+        if (!ascending || indices[control_count - 1] >= mesh->control_count)
+            return LIMN_ERROR_INDEX;
+    }
+    return LIMN_OK;
+}
+
+static limn_result validate_slots(const limn_mesh *mesh, const limn_file_run *run) {
+    const limn_file_class *const class = &mesh->classes[run->class_index];
+    const size_t count = (size_t)run->patch_count * class->control_count;
+    const uint8_t *const narrow = mesh->slots + run->first_slot;
+    const uint16_t *const wide = (const void *)narrow;
+    uint32_t largest = 0;
+    for (size_t k = 0; k < count; k++) {
+        const uint32_t slot = limni_slot_size(class) == 1 ? narrow[k] : wide[k];
+        largest = slot > largest ? slot : largest;
+    }
+    return largest < class->control_count ? LIMN_OK : LIMN_ERROR_SLOT;
+}
+
+static limn_result validate_faces(const limn_mesh *mesh) {
+    for (uint32_t p = 0; p < mesh->patch_count; p++) {
+        const limn_patch_face face = limn_mesh_face(mesh, p);
+        if (face.face >= mesh->patch_count || face.rotation >= mesh->domain->corner_count)
+            return LIMN_ERROR_FACE;
+    }
+    return LIMN_OK;
+}
+
+static limn_result validate_mesh(const limn_pack *pack, uint32_t m) {
+    TRY(validate_text(pack, m, LIMN_CHUNK_NAME));
+    TRY(validate_mesh_sizes(pack, m));
+    const limn_file_mesh *const record = chunk_data(pack, m, LIMN_CHUNK_MESH);
+    const limn_mesh mesh = limn_pack_mesh(pack, m);
+    if (!all_finite(mesh.controls, (size_t)mesh.control_count * 3) ||
+        !all_finite(mesh.bounds_min, 3) || !all_finite(mesh.bounds_max, 3) ||
+        !all_finite(mesh.origin, 3))
+        return LIMN_ERROR_CONTROLS;
+    TRY(validate_runs(pack, &mesh, record->index_count,
+                      find_chunk(pack, m, LIMN_CHUNK_SLOTS)->size));
+    for (uint32_t r = 0; r < mesh.run_count; r++) {
+        TRY(validate_indices(&mesh, &mesh.runs[r]));
+        TRY(validate_slots(&mesh, &mesh.runs[r]));
+    }
+    return validate_faces(&mesh);
+}
+
+// ---- The public functions
+
+limn_result limn_pack_open(limn_pack *pack, const void *blob, size_t blob_size) {
+    LIMNI_REQUIRE(pack && (blob || blob_size == 0), LIMN_ERROR_TRUNCATED);
+    limn_pack opened = {.blob = blob, .blob_size = blob_size};
+    TRY(validate_header(&opened));
+    opened.mesh_count = header_of(&opened)->mesh_count;
+    opened.class_count = header_of(&opened)->class_count;
+    TRY(validate_directory(&opened));
+    TRY(validate_text(&opened, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_INFO));
+    TRY(validate_classes(&opened));
+    for (uint32_t m = 0; m < opened.mesh_count; m++)
+        TRY(validate_mesh(&opened, m));
+    opened.info = chunk_data(&opened, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_INFO);
+    opened.kernels = limn_kernels_select(LIMN_ISA_ALL);
+    *pack = opened;
+    return LIMN_OK;
+}
+
+limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index) {
+    LIMNI_REQUIRE(pack && mesh_index < pack->mesh_count, (limn_mesh){0});
+    const limn_file_mesh *const record = chunk_data(pack, mesh_index, LIMN_CHUNK_MESH);
+    limn_mesh mesh = {
+        .name = chunk_data(pack, mesh_index, LIMN_CHUNK_NAME),
+        .domain = limn_domain_get((limn_domain_kind)record->domain),
+        .controls = chunk_data(pack, mesh_index, LIMN_CHUNK_CONTROLS),
+        .control_count = record->control_count,
+        .patch_count = record->patch_count,
+        .run_count = record->run_count,
+        .faces = chunk_data(pack, mesh_index, LIMN_CHUNK_FACES),
+        .indices = chunk_data(pack, mesh_index, LIMN_CHUNK_INDICES),
+        .slots = chunk_data(pack, mesh_index, LIMN_CHUNK_SLOTS),
+        .tables = chunk_data(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES),
+        .runs = chunk_data(pack, mesh_index, LIMN_CHUNK_RUNS),
+        .classes = chunk_data(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_CLASSES),
+        .kernels = pack->kernels,
+    };
+    memcpy(mesh.bounds_min, record->bounds_min, sizeof mesh.bounds_min);
+    memcpy(mesh.bounds_max, record->bounds_max, sizeof mesh.bounds_max);
+    memcpy(mesh.origin, record->origin, sizeof mesh.origin);
+    return mesh;
+}

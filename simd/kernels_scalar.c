@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: MIT */
+#include "lanes_scalar.h"
+
+#include "evaluate_body.h"
+
+const limn_kernels limni_kernels_scalar = {
+    .name = "scalar",
+    .isa = LIMN_ISA_SCALAR,
+    .evaluate = evaluate_run,
+};

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+/* The reference: one lane. What the other instruction sets must agree with, bit for bit. */
+#ifndef LANES_H
+#define LANES_H
+
+typedef float lanes;
+
+#define LANES_WIDTH 1
+#define LANES_TILE 8 ///< vectors per tile
+
+static inline lanes lanes_zero(void) {
+    return 0.0f;
+}
+static inline lanes lanes_splat(float value) {
+    return value;
+}
+static inline lanes lanes_load(const float *src) {
+    return *src;
+}
+static inline void lanes_store(float *dst, lanes a) {
+    *dst = a;
+}
+static inline lanes lanes_add(lanes a, lanes b) {
+    return a + b;
+}
+static inline lanes lanes_subtract(lanes a, lanes b) {
+    return a - b;
+}
+static inline lanes lanes_multiply(lanes a, lanes b) {
+    return a * b;
+}
+/// a * b + c, rounded twice.
+static inline lanes lanes_multiply_add(lanes a, lanes b, lanes c) {
+    return a * b + c;
+}
+/// Lane by lane: a > b ? x : y.
+static inline lanes lanes_select_greater(lanes a, lanes b, lanes x, lanes y) {
+    return a > b ? x : y;
+}
+/// Lane by lane: a == 0 ? x : y.
+static inline lanes lanes_select_zero(lanes a, lanes x, lanes y) {
+    return a == 0.0f ? x : y;
+}
+
+#endif

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef LANES_H
+#define LANES_H
+
+#include <emmintrin.h>
+
+typedef __m128 lanes;
+
+#define LANES_WIDTH 4
+#define LANES_TILE 4 ///< 12 accumulators, 3 splats and 1 column fill the 16 registers
+
+static inline lanes lanes_zero(void) {
+    return _mm_setzero_ps();
+}
+static inline lanes lanes_splat(float value) {
+    return _mm_set1_ps(value);
+}
+/// src: aligned to 16 bytes.
+static inline lanes lanes_load(const float *src) {
+    return _mm_load_ps(src);
+}
+static inline void lanes_store(float *dst, lanes a) {
+    _mm_store_ps(dst, a);
+}
+static inline lanes lanes_add(lanes a, lanes b) {
+    return _mm_add_ps(a, b);
+}
+static inline lanes lanes_subtract(lanes a, lanes b) {
+    return _mm_sub_ps(a, b);
+}
+static inline lanes lanes_multiply(lanes a, lanes b) {
+    return _mm_mul_ps(a, b);
+}
+/// a * b + c, rounded twice.
+static inline lanes lanes_multiply_add(lanes a, lanes b, lanes c) {
+    return _mm_add_ps(_mm_mul_ps(a, b), c);
+}
+static inline lanes lanes_blend(__m128 mask, lanes x, lanes y) {
+    return _mm_or_ps(_mm_and_ps(mask, x), _mm_andnot_ps(mask, y));
+}
+/// Lane by lane: a > b ? x : y.
+static inline lanes lanes_select_greater(lanes a, lanes b, lanes x, lanes y) {
+    return lanes_blend(_mm_cmpgt_ps(a, b), x, y);
+}
+/// Lane by lane: a == 0 ? x : y.
+static inline lanes lanes_select_zero(lanes a, lanes x, lanes y) {
+    return lanes_blend(_mm_cmpeq_ps(a, _mm_setzero_ps()), x, y);
+}
+
+#endif
