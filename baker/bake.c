@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: MIT */
+/* The public face of the baker: each mesh goes through the steps as it is added. */
+#include "limn/bake.h"
+
+#include "output_file.h"
+#include "write.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct limn_baker {
+    limni_context context;
+    limni_rules rules;
+    limni_classes classes;
+    limni_patches *meshes;
+    uint32_t mesh_count, mesh_capacity;
+    unsigned char *blob; ///< of all meshes so far, or NULL
+    size_t blob_size;
+};
+
+limn_baker *limn_baker_create(const limn_bake_desc *desc) {
+    limn_baker *const baker = calloc(1, sizeof *baker);
+    if (!baker) return NULL;
+    if (desc) baker->context.desc = *desc;
+    baker->rules = (limni_rules){.weights = baker->context.desc.weights,
+                                 .boundary = baker->context.desc.boundary};
+    return baker;
+}
+
+void limn_baker_destroy(limn_baker *baker) {
+    if (!baker) return;
+    limni_release_all(&baker->context);
+    free(baker);
+}
+
+const char *limn_baker_error(const limn_baker *baker) {
+    return baker->context.error;
+}
+
+static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
+    limni_context *const context = &baker->context;
+    if (baker->mesh_count == baker->mesh_capacity) {
+        baker->mesh_capacity = baker->mesh_capacity ? 2 * baker->mesh_capacity : 4;
+        baker->meshes =
+            limni_resize(context, baker->meshes, baker->mesh_capacity, sizeof *baker->meshes);
+        if (!baker->meshes) return LIMN_BAKE_MEMORY;
+    }
+    limni_release(context, baker->blob);
+    baker->blob = NULL;
+    limni_mesh mesh;
+    LIMNI_TRY(limni_mesh_build(context, source, &mesh));
+    LIMNI_TRY(limni_patches_build(context, &mesh, &baker->rules, &baker->classes,
+                                  &baker->meshes[baker->mesh_count]));
+    baker->mesh_count++;
+    limni_release(context, source->position_lines);
+    limni_release(context, source->face_offsets);
+    limni_release(context, source->face_corners);
+    limni_release(context, source->face_lines);
+    limni_release(context, mesh.faces);
+    limni_release(context, mesh.polygons);
+    limni_release(context, mesh.pairs);
+    limni_release(context, mesh.first);
+    limni_release(context, mesh.valences);
+    return LIMN_BAKE_OK;
+}
+
+limn_bake_status limn_baker_add_file(limn_baker *baker, const char *path) {
+    limni_source source = {0};
+    LIMNI_TRY(limni_read_file(&baker->context, path, &source));
+    return add_source(baker, &source);
+}
+
+// ---- Meshes from memory
+
+static limn_bake_status check_mesh(limni_context *context, const limn_bake_mesh *mesh,
+                                   uint64_t *corner_count) {
+    const char *const name = mesh->name ? mesh->name : "mesh";
+    if (mesh->position_count == 0 || mesh->face_count == 0)
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: the mesh is empty", name);
+    for (uint32_t p = 0; p < mesh->position_count; p++) {
+        const float *const position = mesh->positions + 3 * (size_t)p;
+        if (!isfinite(position[0]) || !isfinite(position[1]) || !isfinite(position[2]))
+            return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: vertex %u is not finite", name, p);
+    }
+    *corner_count = 0;
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        const uint32_t size = mesh->face_sizes ? mesh->face_sizes[face] : 3;
+        if (size < 3)
+            return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: face %u has %u corners", name,
+                              face, size);
+        for (uint32_t c = 0; c < size; c++) {
+            const uint32_t index = mesh->face_indices[*corner_count + c];
+            if (index >= mesh->position_count)
+                return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                                  "%s: face %u refers to vertex %u, but there are %u", name, face,
+                                  index, mesh->position_count);
+        }
+        *corner_count += size;
+    }
+    if (*corner_count > UINT32_MAX / 4)
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: too many faces", name);
+    return LIMN_BAKE_OK;
+}
+
+static char *copy_name(limni_context *context, const char *name) {
+    const char *const given = name ? name : "mesh";
+    char *const copy = limni_allocate(context, strlen(given) + 1, 1);
+    if (copy) strcpy(copy, given);
+    return copy;
+}
+
+limn_bake_status limn_baker_add_mesh(limn_baker *baker, const limn_bake_mesh *mesh) {
+    limni_context *const context = &baker->context;
+    uint64_t corner_count = 0;
+    LIMNI_TRY(check_mesh(context, mesh, &corner_count));
+    limni_source source = {
+        .name = copy_name(context, mesh->name),
+        .positions = limni_allocate(context, mesh->position_count, sizeof *source.positions),
+        .position_count = mesh->position_count,
+        .face_count = mesh->face_count,
+        .face_offsets =
+            limni_allocate(context, (size_t)mesh->face_count + 1, sizeof *source.face_offsets),
+        .face_corners = limni_allocate(context, (size_t)corner_count, sizeof *source.face_corners),
+    };
+    if (!source.name || !source.positions || !source.face_offsets || !source.face_corners)
+        return LIMN_BAKE_MEMORY;
+    memcpy(source.positions, mesh->positions, mesh->position_count * sizeof *source.positions);
+    memcpy(source.face_corners, mesh->face_indices, (size_t)corner_count * sizeof(uint32_t));
+    source.face_offsets[0] = 0;
+    for (uint32_t face = 0; face < mesh->face_count; face++)
+        source.face_offsets[face + 1] =
+            source.face_offsets[face] + (mesh->face_sizes ? mesh->face_sizes[face] : 3);
+    return add_source(baker, &source);
+}
+
+// ---- The file
+
+limn_bake_status limn_baker_finish(limn_baker *baker, const void **blob, size_t *blob_size) {
+    if (baker->mesh_count == 0)
+        return limni_fail(&baker->context, LIMN_BAKE_BAD_INPUT, "there is no mesh to bake");
+    if (!baker->blob)
+        LIMNI_TRY(limni_write_blob(&baker->context, &baker->rules, &baker->classes, baker->meshes,
+                                   baker->mesh_count, &baker->blob, &baker->blob_size));
+    *blob = baker->blob;
+    *blob_size = baker->blob_size;
+    return LIMN_BAKE_OK;
+}
+
+limn_bake_status limn_baker_write(limn_baker *baker, const char *path) {
+    const void *blob = NULL;
+    size_t size = 0;
+    LIMNI_TRY(limn_baker_finish(baker, &blob, &size));
+    limni_output_file file;
+    bool written = limni_output_open(&file, path);
+    if (written) {
+        fwrite(blob, 1, size, file.stream); // the commit sees whether that went well
+        written = limni_output_commit(&file);
+    }
+    return written ? LIMN_BAKE_OK
+                   : limni_fail(&baker->context, LIMN_BAKE_IO, "%s: %s", path, file.error);
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Topology classes: faces whose surroundings are the same up to naming share one stencil table.
+ *
+ * The key of a face is its whole 1-neighbourhood in canonical form: valences and boundary status of
+ * the corners, then the rings as slots. Slots are given in the order of a walk around the corners,
+ * so a control point that occurs in two rings, as on small meshes, shows in the key. Canonical
+ * rotation is Brickhill's: lowest valence first, ties by the second, then by the rest of the key.
+ */
+#ifndef LIMNI_CLASSIFY_H
+#define LIMNI_CLASSIFY_H
+
+#include "limn/format.h"
+#include "mesh.h"
+#include "subdivide.h"
+
+/// The corners of a face may have this many edges in all.
+#define LIMNI_LOCAL_BASE_MAX LIMN_FORMAT_CONTROLS_MAX
+
+/// The surroundings of one face in one mesh.
+typedef struct limni_local_base {
+    limni_neighbourhood neighbourhood;
+    uint32_t rotation;  ///< corner c of the patch is corner (c + rotation) mod 3 of the face
+    uint32_t *controls; ///< [control_count] control points by slot
+    uint32_t *key;      ///< [key_size]
+    uint32_t key_size;
+} limni_local_base;
+
+/// Finds local bases in one mesh.
+typedef struct limni_classifier {
+    const limni_mesh *mesh;
+    const limni_rules *rules;
+    uint32_t *slots; ///< [control_count] the slot of a control point, valid where marks match
+    uint32_t *marks; ///< [control_count]
+    uint32_t mark;   ///< of the current local base
+    limni_local_base bases[2]; ///< the best rotation so far and the one being tried
+} limni_classifier;
+
+limn_bake_status limni_classifier_begin(limni_context *context, limni_classifier *classifier,
+                                        const limni_mesh *mesh, const limni_rules *rules);
+void limni_classifier_end(limni_context *context, limni_classifier *classifier);
+
+/// The local base of a face in its canonical rotation; NULL with an error when it is too large.
+/// Valid until the next call.
+const limni_local_base *limni_classify(limni_context *context, limni_classifier *classifier,
+                                       uint32_t face);
+
+/// The same in a rotation that is known to be the canonical one.
+const limni_local_base *limni_local_base_at(limni_classifier *classifier, uint32_t face,
+                                            uint32_t rotation);
+
+#endif

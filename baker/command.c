@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: MIT */
+#include "command.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+int limni_usage_error(const char *command, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    fprintf(stderr, "limn %s: ", command);
+    vfprintf(stderr, format, arguments);
+    fprintf(stderr, "\nsee limn %s --help\n", command);
+    va_end(arguments);
+    return LIMNI_EXIT_USAGE;
+}
+
+int limni_failure(const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    fprintf(stderr, "limn: ");
+    vfprintf(stderr, format, arguments);
+    fprintf(stderr, "\n");
+    va_end(arguments);
+    return LIMNI_EXIT_FAILED;
+}
+
+bool limni_pack_file_open(limni_pack_file *file, const char *path) {
+    char error[512];
+    if (!limni_blob_file_open(&file->blob, path, error, sizeof error)) {
+        limni_failure("%s", error);
+        return false;
+    }
+    const limn_result result = limn_pack_open(&file->pack, file->blob.bytes, file->blob.size);
+    if (result == LIMN_OK) return true;
+    limni_failure("%s: %s", path, limn_result_text(result));
+    limni_blob_file_close(&file->blob);
+    return false;
+}
+
+void limni_pack_file_close(limni_pack_file *file) {
+    limni_blob_file_close(&file->blob);
+}
+
+bool limni_parse_number(const char *text, uint32_t max, uint32_t *value) {
+    if (text[0] < '0' || text[0] > '9') return false; // strtoul also takes blanks and signs
+    char *end;
+    const unsigned long number = strtoul(text, &end, 10);
+    if (*end != '\0' || number > max) return false;
+    *value = (uint32_t)number;
+    return true;
+}
+
+static uint32_t repair_step(const char *name, size_t length) {
+    static const struct {
+        const char *name;
+        uint32_t bit;
+    } steps[] = {{"weld", LIMN_REPAIR_WELD},
+                 {"drop", LIMN_REPAIR_DROP},
+                 {"split", LIMN_REPAIR_SPLIT},
+                 {"all", LIMN_REPAIR_ALL}};
+    for (size_t s = 0; s < sizeof steps / sizeof *steps; s++) {
+        if (strlen(steps[s].name) == length && memcmp(steps[s].name, name, length) == 0)
+            return steps[s].bit;
+    }
+    return 0;
+}
+
+bool limni_parse_repair(const char *text, uint32_t *repair) {
+    *repair = text ? 0 : LIMN_REPAIR_ALL;
+    while (text) {
+        const size_t length = strcspn(text, ",");
+        const uint32_t step = repair_step(text, length);
+        if (step == 0) return false;
+        *repair |= step;
+        text = text[length] ? text + length + 1 : NULL;
+    }
+    return true;
+}

@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: MIT */
+#include "command.h"
+
+#include <getopt.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char help[] =
+    "usage: limn bake IN... -o OUT.limn [OPTIONS]\n\n"
+    "Bakes one or more meshes (.obj, .off) into one .limn file. The meshes share their stencil "
+    "tables.\n"
+    "Polygons are triangulated: quads along the shorter diagonal. Nothing is written unless all is "
+    "well.\n\n"
+    "  -o, --output FILE     the file to write\n"
+    "      --weights NAME    vertex weights: loop (default) or warren\n"
+    "      --boundary NAME   edge-only (default): boundaries are smooth curves;\n"
+    "                        edge-and-corner: boundary vertices of a single face stay in place\n"
+    "      --repair[=STEPS]  mend what would be refused, and say so; STEPS of, separated by "
+    "commas:\n"
+    "                        weld   merge control points whose positions are equal\n"
+    "                        drop   drop degenerate and repeated faces\n"
+    "                        split  cut open non-manifold edges and vertices, and edges whose "
+    "faces\n"
+    "                               are wound inconsistently\n"
+    "                        all    all three, in this order (default)\n"
+    "  -q, --quiet           only errors\n"
+    "  -h, --help            this text\n\n"
+    "example: limn bake body.obj head.obj -o hero.limn --weights warren\n";
+
+typedef struct arguments {
+    limn_bake_desc desc;
+    const char *output;
+    bool quiet, help;
+} arguments;
+
+static void print_note(void *user, const char *text) {
+    const arguments *const given = user;
+    if (!given->quiet) fprintf(stderr, "note: %s\n", text);
+}
+
+static void print_progress(void *user, const char *step, uint32_t done, uint32_t total) {
+    (void)user;
+    if (total < 100000) return; // over before it could be read
+    fprintf(stderr, "\r%s: %u of %u faces", step, done, total);
+    if (done == total) fprintf(stderr, "\r\033[K");
+    fflush(stderr);
+}
+
+enum { OPTION_WEIGHTS = 256, OPTION_BOUNDARY, OPTION_REPAIR };
+
+static const struct option options[] = {
+    {"output", required_argument, NULL, 'o'},
+    {"weights", required_argument, NULL, OPTION_WEIGHTS},
+    {"boundary", required_argument, NULL, OPTION_BOUNDARY},
+    {"repair", optional_argument, NULL, OPTION_REPAIR},
+    {"quiet", no_argument, NULL, 'q'},
+    {"help", no_argument, NULL, 'h'},
+    {0},
+};
+
+/// The index of `text` in a list of two names, or -1.
+static int choose(const char *text, const char *first, const char *second) {
+    if (strcmp(text, first) == 0) return 0;
+    return strcmp(text, second) == 0 ? 1 : -1;
+}
+
+static int parse_option(int option, arguments *given) {
+    int choice;
+    switch (option) {
+    case 'o':
+        given->output = optarg;
+        return LIMNI_EXIT_OK;
+    case OPTION_WEIGHTS:
+        choice = choose(optarg, "loop", "warren");
+        if (choice < 0) return limni_usage_error("bake", "there are no weights '%s'", optarg);
+        given->desc.weights = (limn_weights)choice;
+        return LIMNI_EXIT_OK;
+    case OPTION_BOUNDARY:
+        choice = choose(optarg, "edge-only", "edge-and-corner");
+        if (choice < 0) return limni_usage_error("bake", "there is no boundary rule '%s'", optarg);
+        given->desc.boundary = (limn_boundary)choice;
+        return LIMNI_EXIT_OK;
+    case OPTION_REPAIR:
+        if (!limni_parse_repair(optarg, &given->desc.repair))
+            return limni_usage_error("bake", "cannot repair '%s'", optarg);
+        return LIMNI_EXIT_OK;
+    case 'q':
+        given->quiet = true;
+        return LIMNI_EXIT_OK;
+    case 'h':
+        given->help = true;
+        return LIMNI_EXIT_OK;
+    default: // getopt has said what is wrong
+        fprintf(stderr, "see limn bake --help\n");
+        return LIMNI_EXIT_USAGE;
+    }
+}
+
+static int parse(int argc, char **argv, arguments *given) {
+    for (int option; (option = getopt_long(argc, argv, "o:qh", options, NULL)) != -1;) {
+        const int status = parse_option(option, given);
+        if (status != LIMNI_EXIT_OK || given->help) return status;
+    }
+    if (optind == argc) return limni_usage_error("bake", "there is no input");
+    if (!given->output) return limni_usage_error("bake", "there is no output: -o OUT.limn");
+    return LIMNI_EXIT_OK;
+}
+
+static bool is_same_file(const char *a, const char *b) {
+    struct stat first, second;
+    return stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev &&
+           first.st_ino == second.st_ino;
+}
+
+static void print_summary(const char *path, const void *blob, size_t size) {
+    limn_pack pack;
+    if (limn_pack_open(&pack, blob, size) != LIMN_OK)
+        return; // the caller has checked that it opens
+    uint64_t faces = 0;
+    for (uint32_t m = 0; m < pack.mesh_count; m++)
+        faces += limn_pack_mesh(&pack, m).patch_count;
+    printf("%s: %u %s, %llu faces, %u classes, %zu bytes\n", path, pack.mesh_count,
+           pack.mesh_count == 1 ? "mesh" : "meshes", (unsigned long long)faces, pack.class_count,
+           size);
+}
+
+static limn_bake_status bake(limn_baker *baker, const arguments *given, char **inputs) {
+    for (; *inputs; inputs++)
+        LIMNI_TRY(limn_baker_add_file(baker, *inputs));
+    const void *blob = NULL;
+    size_t size = 0;
+    LIMNI_TRY(limn_baker_write(baker, given->output));
+    LIMNI_TRY(limn_baker_finish(baker, &blob, &size));
+    if (!given->quiet) print_summary(given->output, blob, size);
+    return LIMN_BAKE_OK;
+}
+
+int limni_command_bake(int argc, char **argv) {
+    arguments given = {0};
+    const int status = parse(argc, argv, &given);
+    if (status != LIMNI_EXIT_OK) return status;
+    if (given.help) {
+        fputs(help, stdout);
+        return LIMNI_EXIT_OK;
+    }
+    for (int i = optind; i < argc; i++) {
+        if (is_same_file(argv[i], given.output))
+            return limni_usage_error("bake", "%s is input and output", argv[i]);
+    }
+    given.desc.note = print_note;
+    given.desc.user = &given;
+    if (!given.quiet && isatty(STDERR_FILENO)) given.desc.progress = print_progress;
+
+    limn_baker *const baker = limn_baker_create(&given.desc);
+    if (!baker) return limni_failure("out of memory");
+    const limn_bake_status baked = bake(baker, &given, argv + optind);
+    if (baked != LIMN_BAKE_OK) limni_failure("%s", limn_baker_error(baker));
+    limn_baker_destroy(baker);
+    return baked == LIMN_BAKE_OK ? LIMNI_EXIT_OK : LIMNI_EXIT_FAILED;
+}

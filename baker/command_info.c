@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: MIT */
+#include "command.h"
+#include "limn/format.h"
+
+#include <getopt.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char help[] =
+    "usage: limn info FILE.limn [--json]\n\n"
+    "Says what is in a .limn file: its meshes, and the topology classes with their stencil "
+    "tables.\n\n"
+    "  --json       as JSON, with the keys\n"
+    "                 file.{version,size,table_size,class_count,bake}\n"
+    "                 "
+    "meshes[].{name,faces,control_points,patches,patch_size,bytes_per_face,class_count}\n"
+    "                 classes[].{control_points,table_size,use_count,valences,boundary_corners}\n"
+    "  -h, --help   this text\n\n"
+    "Sizes are in bytes. patch_size is what a mesh stores for its patches (runs, faces, control\n"
+    "indices and slots); the tables are shared by all meshes and counted in table_size.\n"
+    "A class is one topology of a face's surroundings; its use_count is in faces.\n";
+
+static uint64_t table_size(const limn_file_class *class) {
+    const limn_domain *const domain = limn_domain_get((limn_domain_kind) class->domain);
+    return (uint64_t) class->control_count * domain->padded_row_counts[class->depth] *
+           sizeof(float);
+}
+
+/// Bytes of the patches of a mesh: all that grows with its faces.
+static uint64_t patch_size(const limn_mesh *mesh) {
+    uint64_t size = mesh->run_count * sizeof(limn_file_run) + mesh->patch_count * sizeof(uint32_t);
+    for (uint32_t r = 0; r < mesh->run_count; r++) {
+        const uint32_t controls = mesh->classes[mesh->runs[r].class_index].control_count;
+        const uint64_t slot_size = controls <= LIMN_FORMAT_NARROW_SLOTS ? 1 : 2;
+        size += (uint64_t)mesh->runs[r].patch_count * controls * (sizeof(uint32_t) + slot_size);
+    }
+    return size;
+}
+
+/// The class records, shared by all meshes.
+static const limn_file_class *classes_of(const limn_pack *pack) {
+    return pack->mesh_count ? limn_pack_mesh(pack, 0).classes : NULL;
+}
+
+static uint64_t use_count(const limn_pack *pack, uint32_t class_index) {
+    uint64_t count = 0;
+    for (uint32_t m = 0; m < pack->mesh_count; m++) {
+        const limn_mesh mesh = limn_pack_mesh(pack, m);
+        for (uint32_t r = 0; r < mesh.run_count; r++) {
+            if (mesh.runs[r].class_index == class_index) count += mesh.runs[r].patch_count;
+        }
+    }
+    return count;
+}
+
+static uint64_t total_table_size(const limn_pack *pack) {
+    uint64_t size = 0;
+    for (uint32_t c = 0; c < pack->class_count; c++)
+        size += table_size(&classes_of(pack)[c]);
+    return size;
+}
+
+static json_t *json_size(uint64_t value) {
+    return json_integer((json_int_t)value);
+}
+
+static json_t *describe_file(const limn_pack *pack) {
+    json_t *const file = json_object();
+    json_object_set_new(file, "version", json_integer(LIMN_FORMAT_VERSION));
+    json_object_set_new(file, "size", json_size(pack->blob_size));
+    json_object_set_new(file, "table_size", json_size(total_table_size(pack)));
+    json_object_set_new(file, "class_count", json_integer(pack->class_count));
+    json_object_set_new(file, "bake", json_string(pack->info));
+    return file;
+}
+
+static json_t *describe_mesh(const limn_mesh *mesh) {
+    json_t *const object = json_object();
+    const uint64_t size = patch_size(mesh);
+    json_object_set_new(object, "name", json_string(mesh->name));
+    json_object_set_new(object, "faces", json_integer(mesh->patch_count));
+    json_object_set_new(object, "control_points", json_integer(mesh->control_count));
+    json_object_set_new(object, "patches", json_integer(mesh->patch_count));
+    json_object_set_new(object, "patch_size", json_size(size));
+    json_object_set_new(object, "bytes_per_face",
+                        json_real(mesh->patch_count ? (double)size / mesh->patch_count : 0));
+    json_object_set_new(object, "class_count", json_integer(mesh->run_count));
+    return object;
+}
+
+static json_t *describe_class(const limn_pack *pack, uint32_t class_index) {
+    const limn_file_class *const class = &classes_of(pack)[class_index];
+    const limn_domain *const domain = limn_domain_get((limn_domain_kind) class->domain);
+    json_t *const object = json_object(), *const valences = json_array(), *corners = json_array();
+    for (uint32_t corner = 0; corner < domain->corner_count; corner++) {
+        json_array_append_new(valences, json_integer(class->valences[corner]));
+        if (class->boundary_corners >> corner & 1)
+            json_array_append_new(corners, json_integer(corner));
+    }
+    json_object_set_new(object, "control_points", json_integer(class->control_count));
+    json_object_set_new(object, "table_size", json_size(table_size(class)));
+    json_object_set_new(object, "use_count", json_size(use_count(pack, class_index)));
+    json_object_set_new(object, "valences", valences);
+    json_object_set_new(object, "boundary_corners", corners);
+    return object;
+}
+
+static int print_json(const limn_pack *pack) {
+    json_t *const root = json_object(), *const meshes = json_array(), *const classes = json_array();
+    for (uint32_t m = 0; m < pack->mesh_count; m++) {
+        const limn_mesh mesh = limn_pack_mesh(pack, m);
+        json_array_append_new(meshes, describe_mesh(&mesh));
+    }
+    for (uint32_t c = 0; c < pack->class_count; c++)
+        json_array_append_new(classes, describe_class(pack, c));
+    json_object_set_new(root, "file", describe_file(pack));
+    json_object_set_new(root, "meshes", meshes);
+    json_object_set_new(root, "classes", classes);
+    const int status = json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
+    json_decref(root);
+    printf("\n");
+    return status == 0 && fflush(stdout) == 0 ? LIMNI_EXIT_OK : limni_failure("cannot write");
+}
+
+static void print_class(const limn_pack *pack, uint32_t class_index) {
+    const limn_file_class *const class = &classes_of(pack)[class_index];
+    char valences[64] = "";
+    for (uint32_t corner = 0; corner < 4 && class->valences[corner]; corner++) {
+        const size_t length = strlen(valences);
+        snprintf(valences + length, sizeof valences - length, "%s%u%s", corner ? " " : "",
+                 class->valences[corner], class->boundary_corners >> corner & 1 ? "b" : "");
+    }
+    printf("%6u  %-14s %14u %10llu %10llu\n", class_index, valences, class->control_count,
+           (unsigned long long)table_size(class), (unsigned long long)use_count(pack, class_index));
+}
+
+static void print_text(const char *path, const limn_pack *pack) {
+    printf("%s: version %u, %zu bytes, of which %llu in the tables of %u classes\n", path,
+           LIMN_FORMAT_VERSION, pack->blob_size, (unsigned long long)total_table_size(pack),
+           pack->class_count);
+    printf("baked with %s\n\n", pack->info);
+    printf("%-24s %10s %10s %12s %10s %8s\n", "mesh", "faces", "controls", "patch bytes",
+           "bytes/face", "classes");
+    for (uint32_t m = 0; m < pack->mesh_count; m++) {
+        const limn_mesh mesh = limn_pack_mesh(pack, m);
+        const uint64_t size = patch_size(&mesh);
+        printf("%-24s %10u %10u %12llu %10.1f %8u\n", mesh.name, mesh.patch_count,
+               mesh.control_count, (unsigned long long)size,
+               mesh.patch_count ? (double)size / mesh.patch_count : 0, mesh.run_count);
+    }
+    printf("\n%6s  %-14s %14s %10s %10s\n", "class", "valences", "control points", "bytes",
+           "faces");
+    for (uint32_t c = 0; c < pack->class_count; c++)
+        print_class(pack, c);
+    printf("(b: on a boundary)\n");
+}
+
+int limni_command_info(int argc, char **argv) {
+    static const struct option options[] = {
+        {"json", no_argument, NULL, 'j'}, {"help", no_argument, NULL, 'h'}, {0}};
+    bool json = false;
+    for (int option; (option = getopt_long(argc, argv, "h", options, NULL)) != -1;) {
+        if (option == 'h') {
+            fputs(help, stdout);
+            return LIMNI_EXIT_OK;
+        }
+        if (option != 'j') return limni_usage_error("info", "wrong option");
+        json = true;
+    }
+    if (optind + 1 != argc) return limni_usage_error("info", "give one .limn file");
+
+    limni_pack_file file;
+    if (!limni_pack_file_open(&file, argv[optind])) return LIMNI_EXIT_FAILED;
+    int status = LIMNI_EXIT_OK;
+    if (json) {
+        status = print_json(&file.pack);
+    } else {
+        print_text(argv[optind], &file.pack);
+    }
+    limni_pack_file_close(&file);
+    return status;
+}

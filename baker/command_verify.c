@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: MIT */
+#include "command.h"
+
+#include <getopt.h>
+#include <stdio.h>
+
+#ifdef LIMNI_WITH_OPENSUBDIV
+
+#include "compare.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const char help[] =
+    "usage: limn verify FILE.limn --against IN.obj [OPTIONS]\n\n"
+    "Evaluates a mesh at level 4 and compares every vertex with OpenSubdiv's limit position, in "
+    "double\n"
+    "precision. Prints the largest and the mean difference relative to the diagonal of the "
+    "bounding\n"
+    "box. The file must have been baked from that mesh, with Loop's weights.\n\n"
+    "      --against FILE   the mesh (.obj, .off) that was baked\n"
+    "      --mesh N         which mesh of the file, from 0 (default 0)\n"
+    "      --repair[=STEPS] as for limn bake, if the mesh was repaired then\n"
+    "      --tolerance X    fail when the largest difference is above this (default 3e-7)\n"
+    "  -h, --help           this text\n";
+
+typedef struct arguments {
+    const char *input, *against;
+    uint32_t mesh, repair;
+    double tolerance;
+    bool help;
+} arguments;
+
+enum { OPTION_AGAINST = 256, OPTION_MESH, OPTION_REPAIR, OPTION_TOLERANCE };
+
+static const struct option options[] = {
+    {"against", required_argument, NULL, OPTION_AGAINST},
+    {"mesh", required_argument, NULL, OPTION_MESH},
+    {"repair", optional_argument, NULL, OPTION_REPAIR},
+    {"tolerance", required_argument, NULL, OPTION_TOLERANCE},
+    {"help", no_argument, NULL, 'h'},
+    {0},
+};
+
+static bool parse_tolerance(const char *text, double *tolerance) {
+    char *end;
+    *tolerance = strtod(text, &end);
+    return end != text && *end == '\0' && *tolerance >= 0 && isfinite(*tolerance);
+}
+
+static int parse_option(int option, arguments *given) {
+    switch (option) {
+    case OPTION_AGAINST:
+        given->against = optarg;
+        return LIMNI_EXIT_OK;
+    case OPTION_MESH:
+        if (limni_parse_number(optarg, UINT32_MAX, &given->mesh)) return LIMNI_EXIT_OK;
+        return limni_usage_error("verify", "'%s' is not the number of a mesh", optarg);
+    case OPTION_REPAIR:
+        if (limni_parse_repair(optarg, &given->repair)) return LIMNI_EXIT_OK;
+        return limni_usage_error("verify", "cannot repair '%s'", optarg);
+    case OPTION_TOLERANCE:
+        if (parse_tolerance(optarg, &given->tolerance)) return LIMNI_EXIT_OK;
+        return limni_usage_error("verify", "'%s' is not a tolerance", optarg);
+    case 'h':
+        given->help = true;
+        return LIMNI_EXIT_OK;
+    default:
+        return limni_usage_error("verify", "wrong option");
+    }
+}
+
+static int parse(int argc, char **argv, arguments *given) {
+    for (int option; (option = getopt_long(argc, argv, "h", options, NULL)) != -1;) {
+        const int status = parse_option(option, given);
+        if (status != LIMNI_EXIT_OK || given->help) return status;
+    }
+    if (optind + 1 != argc) return limni_usage_error("verify", "give one .limn file");
+    if (!given->against) return limni_usage_error("verify", "there is no mesh: --against IN.obj");
+    given->input = argv[optind];
+    return LIMNI_EXIT_OK;
+}
+
+static int verify(const arguments *given, const limn_pack *pack) {
+    if (given->mesh >= pack->mesh_count)
+        return limni_failure("%s: there is no mesh %u; the file has %u", given->input, given->mesh,
+                             pack->mesh_count);
+    limni_context context = {.desc = {.repair = given->repair}};
+    const limn_mesh mesh = limn_pack_mesh(pack, given->mesh);
+    limni_comparison comparison;
+    const limn_bake_status status =
+        limni_compare(&context, pack, &mesh, given->against, &comparison);
+    if (status != LIMN_BAKE_OK) limni_failure("%s", context.error);
+    limni_release_all(&context);
+    if (status != LIMN_BAKE_OK) return LIMNI_EXIT_FAILED;
+
+    printf("%s: %llu vertices of %u faces; difference from OpenSubdiv's limit, relative to the "
+           "diagonal %g: largest %.3g (face %u), mean %.3g\n",
+           mesh.name, (unsigned long long)comparison.vertex_count, mesh.patch_count,
+           comparison.diagonal, comparison.largest, comparison.largest_face, comparison.mean);
+    if (!(comparison.largest <= given->tolerance))
+        return limni_failure("the largest difference is above %g", given->tolerance);
+    return LIMNI_EXIT_OK;
+}
+
+int limni_command_verify(int argc, char **argv) {
+    arguments given = {.tolerance = 3e-7};
+    const int status = parse(argc, argv, &given);
+    if (status != LIMNI_EXIT_OK) return status;
+    if (given.help) {
+        fputs(help, stdout);
+        return LIMNI_EXIT_OK;
+    }
+    limni_pack_file file;
+    if (!limni_pack_file_open(&file, given.input)) return LIMNI_EXIT_FAILED;
+    const int verified = verify(&given, &file.pack);
+    limni_pack_file_close(&file);
+    return verified;
+}
+
+#else
+
+int limni_command_verify(int argc, char **argv) {
+    (void)argc;
+    (void)argv;
+    return limni_failure("this limn was built without OpenSubdiv, which verify needs");
+}
+
+#endif

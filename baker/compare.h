@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT */
+/* A baked mesh beside OpenSubdiv's limit surface of its source. */
+#ifndef LIMNI_COMPARE_H
+#define LIMNI_COMPARE_H
+
+#include "context.h"
+#include "limn/limn.h"
+
+typedef struct limni_comparison {
+    double diagonal;       ///< of the control points' bounding box
+    double largest, mean;  ///< distances, relative to the diagonal
+    uint32_t largest_face; ///< where the largest is: a triangle of the source, from 0
+    uint64_t vertex_count; ///< compared
+} limni_comparison;
+
+/// Compares the bind pose at level 4, all 153 rows of every face, with OpenSubdiv's answer for the
+/// mesh in the file `path`. Fails when the mesh was baked from something else or not with Loop's
+/// weights.
+limn_bake_status limni_compare(limni_context *context, const limn_pack *pack, const limn_mesh *mesh,
+                               const char *path, limni_comparison *comparison);
+
+#endif

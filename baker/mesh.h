@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The control mesh: triangles and array-based half-edges in Lomont's layout ("High Performance
+ * Subdivision Surfaces", 2007). Half-edge 3f + k runs from corner k of face f to corner k + 1;
+ * faces and ends follow from the index, so only the pairs are stored.
+ */
+#ifndef LIMNI_MESH_H
+#define LIMNI_MESH_H
+
+#include "source.h"
+
+#define LIMNI_NONE 0xffffffffu
+
+/// Faces are numbered in 30 bits in the file.
+#define LIMNI_FACE_MAX (1u << 30)
+
+typedef struct limni_mesh {
+    const char *name;
+    const char *path;              ///< NULL for a mesh from memory
+    const uint32_t *control_lines; ///< [control_count] or NULL
+    const uint32_t *face_lines;    ///< by polygon, or NULL
+    uint32_t index_base;
+    uint32_t control_count;
+    uint32_t face_count;
+    float (*controls)[3]; ///< [control_count]
+    uint32_t (*faces)[3]; ///< [face_count] control points, counter-clockwise
+    uint32_t *polygons;   ///< [face_count] the source face that a triangle came from
+    uint32_t *pairs;      ///< [3 * face_count] the opposite half-edge, or LIMNI_NONE on a boundary
+    uint32_t *first;    ///< [control_count] a half-edge that starts here, or LIMNI_NONE if unused;
+                        ///< on a boundary the clockwise-most one
+    uint32_t *valences; ///< [control_count] edges
+} limni_mesh;
+
+static inline uint32_t limni_half_edge_next(uint32_t h) {
+    return h % 3 == 2 ? h - 2 : h + 1;
+}
+static inline uint32_t limni_half_edge_previous(uint32_t h) {
+    return h % 3 == 0 ? h + 2 : h - 1;
+}
+static inline uint32_t limni_half_edge_start(const limni_mesh *mesh, uint32_t h) {
+    return mesh->faces[h / 3][h % 3];
+}
+static inline uint32_t limni_half_edge_end(const limni_mesh *mesh, uint32_t h) {
+    return limni_half_edge_start(mesh, limni_half_edge_next(h));
+}
+/// The next half-edge counter-clockwise around the start of `h`; LIMNI_NONE past a boundary.
+static inline uint32_t limni_half_edge_turn(const limni_mesh *mesh, uint32_t h) {
+    return mesh->pairs[limni_half_edge_previous(h)];
+}
+static inline bool limni_is_boundary(const limni_mesh *mesh, uint32_t control) {
+    const uint32_t h = mesh->first[control];
+    return h != LIMNI_NONE && mesh->pairs[h] == LIMNI_NONE;
+}
+
+/// "face 12 (line 40)", in the file's own numbering. Returns `text`.
+typedef char limni_place[64];
+const char *limni_face_place(const limni_mesh *mesh, uint32_t face, limni_place text);
+const char *limni_control_place(const limni_mesh *mesh, uint32_t control, limni_place text);
+
+/// The steps from a source to a mesh, in this order. Each fails with LIMN_BAKE_BAD_INPUT on what it
+/// cannot take, unless context->desc.repair allows it to mend it.
+limn_bake_status limni_weld(limni_context *context, limni_source *source);
+limn_bake_status limni_check_faces(limni_context *context, limni_source *source);
+limn_bake_status limni_triangulate(limni_context *context, const limni_source *source,
+                                   limni_mesh *mesh);
+limn_bake_status limni_connect(limni_context *context, limni_mesh *mesh);
+
+/// All of them.
+limn_bake_status limni_mesh_build(limni_context *context, limni_source *source, limni_mesh *mesh);
+
+#endif

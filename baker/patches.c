@@ -1,0 +1,240 @@
+/* SPDX-License-Identifier: MIT */
+#include "patches.h"
+
+#include "hash.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/// What is known of each face after the first pass.
+typedef struct assignment {
+    uint32_t *classes;   ///< [face_count]
+    uint32_t *rotations; ///< [face_count]
+} assignment;
+
+static uint32_t slot_size_of(const limni_class *class) {
+    return class->control_count <= LIMN_FORMAT_NARROW_SLOTS ? 1 : 2;
+}
+
+static limn_bake_status assign_classes(limni_context *context, const limni_mesh *mesh,
+                                       const limni_rules *rules, limni_classes *classes,
+                                       limni_classifier *classifier, const assignment *assigned) {
+    const uint32_t step = mesh->face_count / 100 + 1000;
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        if (face % step == 0) limni_progress(context, "classify", face, mesh->face_count);
+        const limni_local_base *const base = limni_classify(context, classifier, face);
+        if (!base) return LIMN_BAKE_BAD_INPUT;
+        LIMNI_TRY(limni_classes_find(context, classes, rules, base, &assigned->classes[face]));
+        assigned->rotations[face] = base->rotation;
+    }
+    limni_progress(context, "classify", mesh->face_count, mesh->face_count);
+    return LIMN_BAKE_OK;
+}
+
+// ---- Runs
+
+static void fill_runs(const limni_classes *classes, const uint32_t *counts,
+                      limni_patches *patches) {
+    uint64_t patch = 0, index = 0, slot = 0;
+    limn_file_run *run = patches->runs;
+    for (uint32_t c = 0; c < classes->count; c++) {
+        if (counts[c] == 0) continue;
+        const uint32_t slot_size = slot_size_of(&classes->items[c]);
+        slot += slot % slot_size;
+        *run++ = (limn_file_run){
+            .class_index = c,
+            .first_patch = (uint32_t)patch,
+            .patch_count = counts[c],
+            .first_index = index,
+            .first_slot = slot,
+        };
+        const uint64_t count = (uint64_t)counts[c] * classes->items[c].control_count;
+        patch += counts[c];
+        index += count;
+        slot += count * slot_size;
+    }
+    patches->record.index_count = index;
+    patches->slots_size = slot;
+}
+
+static limn_bake_status make_runs(limni_context *context, const limni_mesh *mesh,
+                                  const limni_classes *classes, const assignment *assigned,
+                                  limni_patches *patches) {
+    uint32_t *const counts = limni_allocate_zeroed(context, classes->count, sizeof *counts);
+    if (!counts) return LIMN_BAKE_MEMORY;
+    for (uint32_t face = 0; face < mesh->face_count; face++)
+        counts[assigned->classes[face]]++;
+    for (uint32_t c = 0; c < classes->count; c++)
+        patches->record.run_count += counts[c] != 0;
+    patches->runs =
+        limni_allocate_zeroed(context, patches->record.run_count, sizeof *patches->runs);
+    if (!patches->runs) return LIMN_BAKE_MEMORY;
+    fill_runs(classes, counts, patches);
+    limni_release(context, counts);
+    return LIMN_BAKE_OK;
+}
+
+/// Orders the faces by class, and by number within a class.
+static limn_bake_status order_faces(limni_context *context, const limni_mesh *mesh,
+                                    const limni_classes *classes, const assignment *assigned,
+                                    limni_patches *patches) {
+    uint32_t *const next = limni_allocate(context, classes->count, sizeof *next);
+    patches->faces = limni_allocate(context, mesh->face_count, sizeof *patches->faces);
+    if (!next || !patches->faces) return LIMN_BAKE_MEMORY;
+    for (uint32_t r = 0; r < patches->record.run_count; r++)
+        next[patches->runs[r].class_index] = patches->runs[r].first_patch;
+    for (uint32_t face = 0; face < mesh->face_count; face++)
+        patches->faces[next[assigned->classes[face]]++] = face << 2 | assigned->rotations[face];
+    limni_release(context, next);
+    return LIMN_BAKE_OK;
+}
+
+// ---- Control lists
+
+static int compare_pairs(const void *a, const void *b) {
+    const uint64_t left = *(const uint64_t *)a, right = *(const uint64_t *)b;
+    return (left > right) - (left < right);
+}
+
+/// Few and nearly sorted, as a rule.
+static void sort_pairs(uint64_t *pairs, uint32_t count) {
+    if (count > 64) {
+        qsort(pairs, count, sizeof *pairs, compare_pairs);
+        return;
+    }
+    for (uint32_t k = 1; k < count; k++) {
+        const uint64_t pair = pairs[k];
+        uint32_t at = k;
+        for (; at > 0 && pairs[at - 1] > pair; at--)
+            pairs[at] = pairs[at - 1];
+        pairs[at] = pair;
+    }
+}
+
+/// Stores a patch's control points in ascending order, each with its slot: what makes two patches
+/// add the terms of a shared vertex in the same order.
+static void store_controls(const limni_local_base *base, uint64_t *pairs, uint32_t slot_size,
+                           uint32_t *indices, uint8_t *slots) {
+    const uint32_t count = base->neighbourhood.control_count;
+    for (uint32_t slot = 0; slot < count; slot++)
+        pairs[slot] = (uint64_t)base->controls[slot] << 32 | slot;
+    sort_pairs(pairs, count);
+    for (uint32_t k = 0; k < count; k++) {
+        indices[k] = (uint32_t)(pairs[k] >> 32);
+        // Little-endian, whatever the host.
+        slots[k * slot_size] = (uint8_t)(pairs[k] & 0xff);
+        if (slot_size == 2) slots[2 * k + 1] = (uint8_t)(pairs[k] >> 8 & 0xff);
+    }
+}
+
+static limn_bake_status list_controls(limni_context *context, const limni_classes *classes,
+                                      limni_classifier *classifier, limni_patches *patches) {
+    patches->indices = limni_allocate(context, patches->record.index_count, sizeof(uint32_t));
+    patches->slots = limni_allocate_zeroed(context, patches->slots_size, 1);
+    uint64_t *const pairs = limni_allocate(context, LIMNI_LOCAL_BASE_MAX, sizeof *pairs);
+    if (!patches->indices || !patches->slots || !pairs) return LIMN_BAKE_MEMORY;
+    for (uint32_t r = 0; r < patches->record.run_count; r++) {
+        const limn_file_run *const run = &patches->runs[r];
+        const limni_class *const class = &classes->items[run->class_index];
+        const uint32_t count = class->control_count, slot_size = slot_size_of(class);
+        for (uint32_t p = 0; p < run->patch_count; p++) {
+            const uint32_t packed = patches->faces[run->first_patch + p];
+            const limni_local_base *const base =
+                limni_local_base_at(classifier, packed >> 2, packed & 3);
+            const uint64_t skipped = (uint64_t)p * count;
+            store_controls(base, pairs, slot_size, patches->indices + run->first_index + skipped,
+                           patches->slots + run->first_slot + skipped * slot_size);
+        }
+    }
+    limni_release(context, pairs);
+    return LIMN_BAKE_OK;
+}
+
+// ---- Agreement
+
+/// Adds up what one side says about an edge: which control points move its rows, and how. The sum
+/// does not depend on the order of the slots.
+static uint64_t sum_edge(const limni_class *class, const limni_local_base *base, uint32_t edge,
+                         bool along) {
+    uint64_t sum = 0;
+    for (uint32_t slot = 0; slot < class->control_count; slot++) {
+        const limni_edge_prints *const prints = &class->prints[slot];
+        const uint64_t print = along ? prints->along[edge] : prints->against[edge];
+        if (print) sum += limni_hash_mix(print, base->controls[slot]);
+    }
+    return sum;
+}
+
+/// Every pair of patches must give the rows of the edge they share the same coefficients of the
+/// same control points; otherwise the surface would crack.
+static limn_bake_status check_agreement(limni_context *context, const limni_mesh *mesh,
+                                        const limni_classes *classes, const assignment *assigned,
+                                        limni_classifier *classifier) {
+    uint64_t *const sums = limni_allocate(context, 3 * (size_t)mesh->face_count, sizeof *sums);
+    if (!sums) return LIMN_BAKE_MEMORY;
+    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
+        const uint32_t face = h / 3, rotation = assigned->rotations[face];
+        const uint32_t edge = (h % 3 + 3 - rotation) % 3;
+        const limni_local_base *const base =
+            h % 3 == 0 ? limni_local_base_at(classifier, face, rotation) : &classifier->bases[0];
+        const bool along = mesh->pairs[h] == LIMNI_NONE || h < mesh->pairs[h];
+        sums[h] = sum_edge(&classes->items[assigned->classes[face]], base, edge, along);
+    }
+    limn_bake_status status = LIMN_BAKE_OK;
+    for (uint32_t h = 0; h < 3 * mesh->face_count && status == LIMN_BAKE_OK; h++) {
+        const uint32_t pair = mesh->pairs[h];
+        if (pair == LIMNI_NONE || pair < h || sums[h] == sums[pair]) continue;
+        limni_place a, b;
+        status = limni_fail(context, LIMN_BAKE_INTERNAL,
+                            "%s: defect in the baker: %s and %s disagree on their common edge",
+                            mesh->path ? mesh->path : mesh->name, limni_face_place(mesh, h / 3, a),
+                            limni_face_place(mesh, pair / 3, b));
+    }
+    limni_release(context, sums);
+    return status;
+}
+
+// ---- All steps
+
+/// The origin is 0 where that is as good as any, so that most meshes do not depend on their bounds.
+static void find_bounds(const limni_mesh *mesh, limn_file_mesh *record) {
+    for (int axis = 0; axis < 3; axis++) {
+        float low = mesh->controls[0][axis], high = low;
+        for (uint32_t c = 1; c < mesh->control_count; c++) {
+            const float value = mesh->controls[c][axis];
+            low = value < low ? value : low;
+            high = value > high ? value : high;
+        }
+        record->bounds_min[axis] = low;
+        record->bounds_max[axis] = high;
+        record->origin[axis] = low <= 0 && high >= 0 ? 0 : low + (high - low) / 2;
+    }
+}
+
+limn_bake_status limni_patches_build(limni_context *context, const limni_mesh *mesh,
+                                     const limni_rules *rules, limni_classes *classes,
+                                     limni_patches *patches) {
+    const assignment assigned = {
+        .classes = limni_allocate(context, mesh->face_count, sizeof(uint32_t)),
+        .rotations = limni_allocate(context, mesh->face_count, sizeof(uint32_t)),
+    };
+    if (!assigned.classes || !assigned.rotations) return LIMN_BAKE_MEMORY;
+    *patches = (limni_patches){
+        .name = mesh->name,
+        .controls = mesh->controls,
+        .record = {.control_count = mesh->control_count, .patch_count = mesh->face_count},
+    };
+    find_bounds(mesh, &patches->record);
+
+    limni_classifier classifier;
+    LIMNI_TRY(limni_classifier_begin(context, &classifier, mesh, rules));
+    LIMNI_TRY(assign_classes(context, mesh, rules, classes, &classifier, &assigned));
+    LIMNI_TRY(check_agreement(context, mesh, classes, &assigned, &classifier));
+    LIMNI_TRY(make_runs(context, mesh, classes, &assigned, patches));
+    LIMNI_TRY(order_faces(context, mesh, classes, &assigned, patches));
+    LIMNI_TRY(list_controls(context, classes, &classifier, patches));
+    limni_classifier_end(context, &classifier);
+    limni_release(context, assigned.classes);
+    limni_release(context, assigned.rotations);
+    return LIMN_BAKE_OK;
+}

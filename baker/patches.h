@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT */
+/* The patches of one mesh, ordered by class and ready to be written. */
+#ifndef LIMNI_PATCHES_H
+#define LIMNI_PATCHES_H
+
+#include "classes.h"
+#include "limn/format.h"
+
+typedef struct limni_patches {
+    const char *name;
+    limn_file_mesh record;
+    float (*controls)[3];
+    limn_file_run *runs;
+    uint32_t *faces;   ///< [patch_count] face << 2 | rotation
+    uint32_t *indices; ///< [index_count]
+    uint8_t *slots;
+    uint64_t slots_size; ///< in bytes
+} limni_patches;
+
+/// Classifies every face of a mesh and lists its patches; adds the classes that are new. Checks
+/// that patches which share an edge agree on it, and fails with LIMN_BAKE_INTERNAL if any two do
+/// not.
+limn_bake_status limni_patches_build(limni_context *context, const limni_mesh *mesh,
+                                     const limni_rules *rules, limni_classes *classes,
+                                     limni_patches *patches);
+
+#endif

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: MIT */
+#define _FILE_OFFSET_BITS 64
+
+#include "source.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+typedef limn_bake_status read_text_fn(limni_context *context, const char *text, size_t size,
+                                      limni_source *source);
+
+static const char *find_file_name(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/// The last dot of the name with what follows it, or the end of the name. A dot at the start hides
+/// a file and begins no extension.
+static const char *find_extension(const char *file_name) {
+    const char *dot = strrchr(file_name, '.');
+    return dot && dot != file_name ? dot : file_name + strlen(file_name);
+}
+
+/// Without tolower(), which asks the locale.
+static bool equal_without_case(const char *text, const char *lower) {
+    for (; *text && *lower; text++, lower++) {
+        const char c = *text;
+        const char folded = c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+        if (folded != *lower) return false;
+    }
+    return *text == *lower;
+}
+
+static read_text_fn *find_reader(const char *path) {
+    static const struct {
+        const char *extension;
+        read_text_fn *read;
+    } readers[] = {{".obj", limni_read_obj}, {".off", limni_read_off}};
+
+    const char *extension = find_extension(find_file_name(path));
+    for (size_t reader = 0; reader < sizeof readers / sizeof readers[0]; reader++) {
+        if (equal_without_case(extension, readers[reader].extension)) return readers[reader].read;
+    }
+    return NULL;
+}
+
+static char *copy_text(limni_context *context, const char *text, size_t size) {
+    char *copy = limni_allocate(context, size + 1, 1);
+    if (!copy) return NULL;
+    memcpy(copy, text, size);
+    copy[size] = '\0';
+    return copy;
+}
+
+/// Path and name outlive the caller's path: later steps name the file in their errors.
+static limn_bake_status name_source(limni_context *context, const char *path,
+                                    limni_source *source) {
+    const char *file_name = find_file_name(path);
+    const size_t stem_size = (size_t)(find_extension(file_name) - file_name);
+    source->path = copy_text(context, path, strlen(path));
+    source->name = copy_text(context, file_name, stem_size);
+    return source->path && source->name ? LIMN_BAKE_OK : LIMN_BAKE_MEMORY;
+}
+
+static limn_bake_status find_size(limni_context *context, const char *path, size_t *size) {
+    struct stat information;
+    if (stat(path, &information) != 0) {
+        return limni_fail(context, LIMN_BAKE_IO, "%s: cannot be read: %s", path, strerror(errno));
+    }
+    if (S_ISDIR(information.st_mode)) {
+        return limni_fail(context, LIMN_BAKE_IO, "%s: is a folder, not a file", path);
+    }
+    if (!S_ISREG(information.st_mode)) {
+        return limni_fail(context, LIMN_BAKE_IO, "%s: is not a regular file", path);
+    }
+    if (information.st_size >= (off_t)UINT32_MAX) {
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: the file has 4 GiB or more", path);
+    }
+    *size = (size_t)information.st_size;
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status load(limni_context *context, const char *path, size_t size, char *text) {
+    FILE *file = fopen(path, "rb");
+    if (!file) {
+        return limni_fail(context, LIMN_BAKE_IO, "%s: cannot be read: %s", path, strerror(errno));
+    }
+    errno = 0;
+    const size_t read_size = fread(text, 1, size, file);
+    const int error = errno;
+    fclose(file);
+    if (read_size != size) {
+        return limni_fail(context, LIMN_BAKE_IO, "%s: cannot be read: %s", path,
+                          error ? strerror(error) : "it became shorter meanwhile");
+    }
+    text[size] = '\0';
+    return LIMN_BAKE_OK;
+}
+
+limn_bake_status limni_read_file(limni_context *context, const char *path, limni_source *source) {
+    *source = (limni_source){0};
+    size_t size = 0;
+    LIMNI_TRY(find_size(context, path, &size));
+    read_text_fn *read = find_reader(path);
+    if (!read) {
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                          "%s: unknown kind of file; .obj and .off are read", path);
+    }
+    LIMNI_TRY(name_source(context, path, source));
+    char *text = limni_allocate(context, size + 1, 1);
+    if (!text) return LIMN_BAKE_MEMORY;
+    LIMNI_TRY(load(context, path, size, text));
+    LIMNI_TRY(read(context, text, size, source));
+    limni_release(context, text);
+    return LIMN_BAKE_OK;
+}

@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Wavefront OBJ: vertices and polygons. Texture coordinates and normals are checked and dropped;
+ * free-form geometry, groups and materials are skipped.
+ */
+#include "source.h"
+#include "text_scanner.h"
+
+#include <string.h>
+
+enum { POSITION, TEXTURE, NORMAL, ELEMENT_COUNT };
+enum { UNKNOWN_LIMIT = 8 };
+
+/// What face corners refer to. Faces may refer to elements that come later in the file, so the
+/// highest reference is checked at the end.
+typedef struct obj_element {
+    uint32_t count;
+    uint32_t highest_number; ///< from 1 as in the file; 0: no reference yet
+    uint32_t highest_line;
+} obj_element;
+
+static const char *const element_nouns[ELEMENT_COUNT] = {"vertex", "texture coordinate", "normal"};
+
+typedef struct obj_reader {
+    limni_scanner scanner;
+    limni_source *source;
+    size_t position_capacity;
+    size_t face_capacity;
+    size_t corner_capacity;
+    uint32_t corner_count;
+    obj_element elements[ELEMENT_COUNT];
+    limni_token unknown_keywords[UNKNOWN_LIMIT]; ///< in the text; noted once each
+    uint32_t unknown_count;
+} obj_reader;
+
+static size_t grown_capacity(size_t capacity) {
+    return capacity == 0 ? 256 : 2 * capacity;
+}
+
+static limn_bake_status reserve_position(obj_reader *reader) {
+    limni_source *source = reader->source;
+    if (source->position_count < reader->position_capacity) return LIMN_BAKE_OK;
+
+    const size_t capacity = grown_capacity(reader->position_capacity);
+    limni_context *context = reader->scanner.context;
+    void *positions = limni_resize(context, source->positions, capacity, sizeof(float[3]));
+    if (!positions) return LIMN_BAKE_MEMORY;
+    source->positions = positions;
+    void *lines = limni_resize(context, source->position_lines, capacity, sizeof(uint32_t));
+    if (!lines) return LIMN_BAKE_MEMORY;
+    source->position_lines = lines;
+    reader->position_capacity = capacity;
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status reserve_face(obj_reader *reader) {
+    limni_source *source = reader->source;
+    if (source->face_count < reader->face_capacity) return LIMN_BAKE_OK;
+
+    const size_t capacity = grown_capacity(reader->face_capacity);
+    limni_context *context = reader->scanner.context;
+    void *offsets = limni_resize(context, source->face_offsets, capacity + 1, sizeof(uint32_t));
+    if (!offsets) return LIMN_BAKE_MEMORY;
+    source->face_offsets = offsets;
+    void *lines = limni_resize(context, source->face_lines, capacity, sizeof(uint32_t));
+    if (!lines) return LIMN_BAKE_MEMORY;
+    source->face_lines = lines;
+    reader->face_capacity = capacity;
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status reserve_corner(obj_reader *reader) {
+    if (reader->corner_count < reader->corner_capacity) return LIMN_BAKE_OK;
+
+    const size_t capacity = grown_capacity(reader->corner_capacity);
+    void *corners = limni_resize(reader->scanner.context, reader->source->face_corners, capacity,
+                                 sizeof(uint32_t));
+    if (!corners) return LIMN_BAKE_MEMORY;
+    reader->source->face_corners = corners;
+    reader->corner_capacity = capacity;
+    return LIMN_BAKE_OK;
+}
+
+/// v x y z, and then a weight or a colour, which are dropped.
+static limn_bake_status read_position(obj_reader *reader) {
+    limni_source *source = reader->source;
+    LIMNI_TRY(reserve_position(reader));
+    const uint32_t index = source->position_count;
+    source->position_lines[index] = reader->scanner.line;
+    LIMNI_TRY(limni_scanner_numbers(&reader->scanner, "vertex", 3, 7, source->positions[index]));
+    source->position_count = ++reader->elements[POSITION].count;
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status read_texture(obj_reader *reader) {
+    reader->elements[TEXTURE].count++;
+    return limni_scanner_numbers(&reader->scanner, element_nouns[TEXTURE], 1, 3, NULL);
+}
+
+static limn_bake_status read_normal(obj_reader *reader) {
+    reader->elements[NORMAL].count++;
+    return limni_scanner_numbers(&reader->scanner, element_nouns[NORMAL], 3, 3, NULL);
+}
+
+static limn_bake_status fail_corner(const obj_reader *reader, limni_token corner) {
+    return limni_scanner_fail(&reader->scanner, reader->scanner.line,
+                              "'%.*s' is not a corner; v, v/vt, v//vn or v/vt/vn is expected",
+                              limni_token_shown(corner), corner.text);
+}
+
+/// Turns a number of the file, from 1 or relative from -1, into an index from 0. `line` is where
+/// the face starts.
+static limn_bake_status resolve(obj_reader *reader, uint32_t kind, bool relative, uint64_t number,
+                                uint32_t line, uint32_t *index) {
+    obj_element *element = &reader->elements[kind];
+    const limni_scanner *scanner = &reader->scanner;
+    const char *noun = element_nouns[kind];
+    if (number == 0) {
+        return limni_scanner_fail(scanner, line, "face refers to %s 0, but they count from 1",
+                                  noun);
+    }
+    if (number > UINT32_MAX) {
+        return limni_scanner_fail(scanner, line, "face refers to a %s beyond 32 bits", noun);
+    }
+    if (relative && number > element->count) {
+        return limni_scanner_fail(scanner, line, "face refers to %s -%u, but %u come before it",
+                                  noun, (uint32_t)number, element->count);
+    }
+    if (relative) number = element->count + 1 - number;
+    if (number > element->highest_number) {
+        element->highest_number = (uint32_t)number;
+        element->highest_line = line;
+    }
+    *index = (uint32_t)number - 1;
+    return LIMN_BAKE_OK;
+}
+
+/// One corner of a face: up to three numbers with '/' between them; the second may be missing.
+static limn_bake_status read_corner(obj_reader *reader, limni_token corner, uint32_t line) {
+    const char *const end = corner.text + corner.size;
+    const char *c = corner.text;
+    for (uint32_t kind = POSITION; kind < ELEMENT_COUNT; kind++) {
+        if (kind == TEXTURE && *c == '/') {
+            c++;
+            continue;
+        }
+        const bool relative = *c == '-';
+        c += relative;
+        uint64_t number = 0;
+        uint32_t index = 0;
+        if (!limni_parse_digits(&c, &number)) return fail_corner(reader, corner);
+        LIMNI_TRY(resolve(reader, kind, relative, number, line, &index));
+        if (kind == POSITION) {
+            LIMNI_TRY(reserve_corner(reader));
+            reader->source->face_corners[reader->corner_count++] = index;
+        }
+        if (c == end) return LIMN_BAKE_OK;
+        if (*c++ != '/') break;
+    }
+    return fail_corner(reader, corner);
+}
+
+static limn_bake_status read_face(obj_reader *reader) {
+    limni_source *source = reader->source;
+    const uint32_t line = reader->scanner.line;
+    const uint32_t first_corner = reader->corner_count;
+    LIMNI_TRY(reserve_face(reader));
+    for (;;) {
+        const limni_token corner = limni_scanner_next_token(&reader->scanner);
+        if (corner.size == 0) break;
+        LIMNI_TRY(read_corner(reader, corner, line));
+    }
+    const uint32_t size = reader->corner_count - first_corner;
+    if (size < 3) {
+        return limni_scanner_fail(&reader->scanner, line,
+                                  "face has %u corner%s; at least 3 are needed", size,
+                                  size == 1 ? "" : "s");
+    }
+    source->face_offsets[source->face_count] = first_corner;
+    source->face_lines[source->face_count] = line;
+    source->face_count++;
+    source->face_offsets[source->face_count] = reader->corner_count;
+    return LIMN_BAKE_OK;
+}
+
+/// Keywords that change nothing about the polygons, or that are read elsewhere: names, materials,
+/// display, points and lines, free-form curves and surfaces, and OpenSubdiv's tags (t).
+static bool is_ignored(limni_token keyword) {
+    static const char *const words[] = {
+        "bevel", "bmat", "c_interp",  "con",  "cstype", "ctech",      "curv",   "curv2", "d_interp",
+        "deg",   "end",  "g",         "hole", "l",      "lod",        "maplib", "mg",    "mtllib",
+        "o",     "p",    "parm",      "s",    "scrv",   "shadow_obj", "sp",     "stech", "step",
+        "surf",  "t",    "trace_obj", "trim", "usemap", "usemtl",     "vp",
+    };
+    for (size_t word = 0; word < sizeof words / sizeof words[0]; word++) {
+        if (limni_token_is(keyword, words[word])) return true;
+    }
+    return false;
+}
+
+/// Says once for each keyword that it is ignored; but not for the hundreds that a damaged file has.
+static void note_unknown(obj_reader *reader, limni_token keyword) {
+    if (reader->unknown_count == UNKNOWN_LIMIT) return;
+    for (uint32_t known = 0; known < reader->unknown_count; known++) {
+        const limni_token other = reader->unknown_keywords[known];
+        if (other.size == keyword.size && memcmp(other.text, keyword.text, keyword.size) == 0) {
+            return;
+        }
+    }
+    reader->unknown_keywords[reader->unknown_count++] = keyword;
+    limni_note(reader->scanner.context, "%s:%u: unknown keyword '%.*s' is ignored",
+               reader->scanner.path, reader->scanner.line, limni_token_shown(keyword),
+               keyword.text);
+}
+
+static limn_bake_status read_line(obj_reader *reader, limni_token keyword) {
+    if (limni_token_is(keyword, "v")) return read_position(reader);
+    if (limni_token_is(keyword, "f")) return read_face(reader);
+    if (limni_token_is(keyword, "vt")) return read_texture(reader);
+    if (limni_token_is(keyword, "vn")) return read_normal(reader);
+    if (!is_ignored(keyword)) note_unknown(reader, keyword);
+    limni_scanner_skip_line(&reader->scanner);
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status check_references(const obj_reader *reader) {
+    for (uint32_t kind = 0; kind < ELEMENT_COUNT; kind++) {
+        const obj_element *element = &reader->elements[kind];
+        if (element->highest_number > element->count) {
+            return limni_scanner_fail(&reader->scanner, element->highest_line,
+                                      "face refers to %s %u, but the file has %u",
+                                      element_nouns[kind], element->highest_number, element->count);
+        }
+    }
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status read_lines(obj_reader *reader) {
+    limni_scanner *scanner = &reader->scanner;
+    limni_token keyword;
+    while (limni_scanner_next_line(scanner, &keyword)) {
+        LIMNI_TRY(read_line(reader, keyword));
+    }
+    if (reader->source->position_count == 0) {
+        return limni_fail(scanner->context, LIMN_BAKE_BAD_INPUT, "%s: the file has no vertices",
+                          scanner->path);
+    }
+    if (reader->source->face_count == 0) {
+        return limni_fail(scanner->context, LIMN_BAKE_BAD_INPUT, "%s: the file has no faces",
+                          scanner->path);
+    }
+    return check_references(reader);
+}
+
+limn_bake_status limni_read_obj(limni_context *context, const char *text, size_t size,
+                                limni_source *source) {
+    *source = (limni_source){.index_base = 1, .name = source->name, .path = source->path};
+    obj_reader reader = {.source = source};
+    LIMNI_TRY(limni_scanner_open(&reader.scanner, context, source->path, text, size));
+    const limn_bake_status status = read_lines(&reader);
+    limni_scanner_close(&reader.scanner);
+    return status;
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef LIMNI_SUBDIVIDE_H
+#define LIMNI_SUBDIVIDE_H
+
+#include "context.h"
+#include "scheme.h"
+
+/// The surroundings of one triangle, without positions: all that its coefficients depend on.
+typedef struct limni_neighbourhood {
+    uint32_t control_count; ///< K: slots 0, 1, 2 are the corners, the others follow around them
+    limni_star corners[3];  ///< rings of slots
+} limni_neighbourhood;
+
+/// What becomes of the vertices after the last level.
+typedef enum limni_projection {
+    LIMNI_PROJECT_NOT,     ///< they stay where that level puts them
+    LIMNI_PROJECT_TO_LIMIT ///< they move to where all further levels would take them
+} limni_projection;
+
+/// Subdivides the triangle symbolically, `depth` times, 0 to LIMN_LEVEL_MAX.
+///
+/// rows  out: [row_counts[depth]][control_count] coefficients in the row order of the triangle
+///       domain; each row sums to 1 within a few units of 2^-60
+limn_bake_status limni_subdivide(limni_context *context, const limni_rules *rules,
+                                 const limni_neighbourhood *neighbourhood, int depth,
+                                 limni_projection projection, limni_fixed *rows);
+
+#endif

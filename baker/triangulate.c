@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Polygons become triangles, the same on every host: an ear at a time, always the one with the
+ * shortest diagonal, ties to the smaller control point indices. For a quad this is its shorter
+ * diagonal. A diagonal that is an edge of the mesh already would make it non-manifold, and is
+ * avoided.
+ */
+#include "hash.h"
+#include "mesh.h"
+
+#include <math.h>
+#include <string.h>
+
+/// The edges of the mesh so far, as a set.
+typedef struct edge_set {
+    uint64_t *keys; ///< 0: free
+    uint32_t size;
+} edge_set;
+
+static uint64_t edge_key(uint32_t a, uint32_t b) {
+    const uint64_t low = a < b ? a : b, high = a < b ? b : a;
+    return high << 32 | low; // never 0, since high > low
+}
+
+static uint64_t *find_edge(const edge_set *set, uint64_t key) {
+    uint32_t at = (uint32_t)limni_hash_mix(key, 0) & (set->size - 1);
+    while (set->keys[at] != 0 && set->keys[at] != key)
+        at = (at + 1) & (set->size - 1);
+    return &set->keys[at];
+}
+
+static bool has_edge(const edge_set *set, uint32_t a, uint32_t b) {
+    return *find_edge(set, edge_key(a, b)) != 0;
+}
+
+static void add_edge(edge_set *set, uint32_t a, uint32_t b) {
+    *find_edge(set, edge_key(a, b)) = edge_key(a, b);
+}
+
+/// A polygon that is being cut, and where its triangles go.
+typedef struct polygon {
+    const limni_mesh *mesh;
+    uint32_t *corners;
+    uint32_t size;
+    double normal[3]; ///< of the whole polygon, by Newell's method; any length
+} polygon;
+
+static const float *at(const polygon *p, uint32_t corner) {
+    return p->mesh->controls[p->corners[corner]];
+}
+
+static void find_normal(polygon *p) {
+    memset(p->normal, 0, sizeof p->normal);
+    for (uint32_t c = 0; c < p->size; c++) {
+        const float *const a = at(p, c), *const b = at(p, (c + 1) % p->size);
+        for (int axis = 0; axis < 3; axis++) {
+            const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+            p->normal[axis] += ((double)a[u] - b[u]) * ((double)a[v] + b[v]);
+        }
+    }
+}
+
+/// Twice the signed area of a triangle, seen along the normal.
+static double facing(const polygon *p, const float *a, const float *b, const float *c) {
+    double sum = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const double ab[2] = {(double)b[u] - a[u], (double)b[v] - a[v]};
+        const double ac[2] = {(double)c[u] - a[u], (double)c[v] - a[v]};
+        sum += p->normal[axis] * (ab[0] * ac[1] - ab[1] * ac[0]);
+    }
+    return sum;
+}
+
+/// A corner can be cut off if it is convex and no other corner lies in its triangle.
+static bool is_ear(const polygon *p, uint32_t corner) {
+    const uint32_t before = (corner + p->size - 1) % p->size, after = (corner + 1) % p->size;
+    const float *const a = at(p, before), *const b = at(p, corner), *const c = at(p, after);
+    if (!(facing(p, a, b, c) > 0)) return false;
+    for (uint32_t other = 0; other < p->size; other++) {
+        if (other == before || other == corner || other == after) continue;
+        const float *const q = at(p, other);
+        if (facing(p, a, b, q) >= 0 && facing(p, b, c, q) >= 0 && facing(p, c, a, q) >= 0)
+            return false;
+    }
+    return true;
+}
+
+static double squared_distance(const float *a, const float *b) {
+    double sum = 0;
+    for (int axis = 0; axis < 3; axis++)
+        sum += ((double)a[axis] - b[axis]) * ((double)a[axis] - b[axis]);
+    return sum;
+}
+
+/// What makes one cut better than another, most important first.
+typedef struct cut {
+    uint32_t corner;
+    bool existing; ///< the diagonal is an edge already
+    bool outside;  ///< not an ear
+    double length;
+    uint64_t key;
+} cut;
+
+static bool is_better(const cut *a, const cut *b) {
+    if (a->existing != b->existing) return b->existing;
+    if (a->outside != b->outside) return b->outside;
+    if (a->length != b->length) return a->length < b->length;
+    return (a->key & 0xffffffffu) != (b->key & 0xffffffffu)
+               ? (a->key & 0xffffffffu) < (b->key & 0xffffffffu)
+               : a->key < b->key;
+}
+
+static cut cut_at(const polygon *p, const edge_set *edges, uint32_t corner) {
+    const uint32_t before = (corner + p->size - 1) % p->size, after = (corner + 1) % p->size;
+    return (cut){
+        .corner = corner,
+        .existing = has_edge(edges, p->corners[before], p->corners[after]),
+        .outside = p->size > 4 && !is_ear(p, corner), // of a quad, only the lengths count
+        .length = squared_distance(at(p, before), at(p, after)),
+        .key = edge_key(p->corners[before], p->corners[after]),
+    };
+}
+
+static uint32_t best_corner(const polygon *p, const edge_set *edges) {
+    cut best = cut_at(p, edges, 0);
+    for (uint32_t corner = 1; corner < p->size; corner++) {
+        const cut candidate = cut_at(p, edges, corner);
+        if (is_better(&candidate, &best)) best = candidate;
+    }
+    return best.corner;
+}
+
+static void emit(limni_mesh *mesh, uint32_t source_face, uint32_t a, uint32_t b, uint32_t c) {
+    uint32_t *const face = mesh->faces[mesh->face_count];
+    face[0] = a;
+    face[1] = b;
+    face[2] = c;
+    mesh->polygons[mesh->face_count++] = source_face;
+}
+
+static void cut_polygon(polygon *p, edge_set *edges, limni_mesh *mesh, uint32_t source_face) {
+    find_normal(p);
+    while (p->size > 3) {
+        const uint32_t corner = best_corner(p, edges);
+        const uint32_t before = (corner + p->size - 1) % p->size, after = (corner + 1) % p->size;
+        emit(mesh, source_face, p->corners[before], p->corners[corner], p->corners[after]);
+        add_edge(edges, p->corners[before], p->corners[after]);
+        memmove(p->corners + corner, p->corners + corner + 1,
+                (p->size - corner - 1) * sizeof *p->corners);
+        p->size--;
+    }
+    emit(mesh, source_face, p->corners[0], p->corners[1], p->corners[2]);
+}
+
+static limn_bake_status make_edge_set(limni_context *context, const limni_source *source,
+                                      edge_set *edges) {
+    // Polygon edges and diagonals: at most one per corner and one less than that.
+    edges->size = limni_hash_size(2 * source->face_offsets[source->face_count]);
+    edges->keys = limni_allocate_zeroed(context, edges->size, sizeof *edges->keys);
+    if (!edges->keys) return LIMN_BAKE_MEMORY;
+    for (uint32_t face = 0; face < source->face_count; face++) {
+        const uint32_t begin = source->face_offsets[face], end = source->face_offsets[face + 1];
+        for (uint32_t c = begin; c < end; c++)
+            add_edge(edges, source->face_corners[c],
+                     source->face_corners[c + 1 < end ? c + 1 : begin]);
+    }
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status cut_faces(limni_context *context, const limni_source *source,
+                                  limni_mesh *mesh, bool only_triangles) {
+    edge_set edges = {0};
+    if (!only_triangles) LIMNI_TRY(make_edge_set(context, source, &edges));
+    uint32_t quads = 0, larger = 0;
+    for (uint32_t face = 0; face < source->face_count; face++) {
+        const uint32_t begin = source->face_offsets[face];
+        polygon p = {.mesh = mesh,
+                     .corners = source->face_corners + begin,
+                     .size = source->face_offsets[face + 1] - begin};
+        quads += p.size == 4;
+        larger += p.size > 4;
+        cut_polygon(&p, &edges, mesh, face);
+    }
+    limni_release(context, edges.keys);
+    if (quads || larger)
+        limni_note(context, "%s: triangulated %u quads and %u larger polygons: %u faces became %u",
+                   source->path ? source->path : source->name, quads, larger, source->face_count,
+                   mesh->face_count);
+    return LIMN_BAKE_OK;
+}
+
+limn_bake_status limni_triangulate(limni_context *context, const limni_source *source,
+                                   limni_mesh *mesh) {
+    const uint64_t corners = source->face_offsets[source->face_count];
+    const uint64_t triangles = corners - 2 * (uint64_t)source->face_count;
+    if (triangles >= LIMNI_FACE_MAX)
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: more than %u triangles",
+                          source->path ? source->path : source->name, LIMNI_FACE_MAX);
+    *mesh = (limni_mesh){
+        .name = source->name,
+        .path = source->path,
+        .control_lines = source->position_lines,
+        .face_lines = source->face_lines,
+        .index_base = source->index_base,
+        .control_count = source->position_count,
+        .controls = source->positions,
+        .faces = limni_allocate(context, (size_t)triangles, sizeof *mesh->faces),
+        .polygons = limni_allocate(context, (size_t)triangles, sizeof *mesh->polygons),
+    };
+    if (!mesh->faces || !mesh->polygons) return LIMN_BAKE_MEMORY;
+    return cut_faces(context, source, mesh, triangles == source->face_count);
+}

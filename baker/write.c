@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The .limn file: a header, a directory sorted by mesh and kind, and chunks. Laid out twice: once
+ * to find the offsets, once to copy. Records are written as the host has them, which open() on a
+ * big-endian machine would refuse; the baker refuses to run there too.
+ */
+#include "write.h"
+
+#include "../runtime/checksum.h"
+#include "limn/limn.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CHUNKS_OF_FILE = 3, CHUNKS_OF_MESH = 7 };
+
+/// A chunk that is to be written.
+typedef struct part {
+    uint32_t kind, mesh;
+    const void *data; ///< NULL: filled in by the caller
+    uint64_t size;
+} part;
+
+static int compare_parts(const void *a, const void *b) {
+    const part *const left = a, *const right = b;
+    const uint64_t left_key = (uint64_t)(uint32_t)(left->mesh + 1) << 32 | left->kind;
+    const uint64_t right_key = (uint64_t)(uint32_t)(right->mesh + 1) << 32 | right->kind;
+    return (left_key > right_key) - (left_key < right_key);
+}
+
+static void list_mesh(const limni_patches *mesh, uint32_t m, part *parts) {
+    const limn_file_mesh *const record = &mesh->record;
+    const part of_mesh[CHUNKS_OF_MESH] = {
+        {LIMN_CHUNK_MESH, m, record, sizeof *record},
+        {LIMN_CHUNK_NAME, m, mesh->name, strlen(mesh->name) + 1},
+        {LIMN_CHUNK_CONTROLS, m, mesh->controls, record->control_count * sizeof *mesh->controls},
+        {LIMN_CHUNK_RUNS, m, mesh->runs, record->run_count * sizeof *mesh->runs},
+        {LIMN_CHUNK_FACES, m, mesh->faces, record->patch_count * sizeof *mesh->faces},
+        {LIMN_CHUNK_INDICES, m, mesh->indices, record->index_count * sizeof *mesh->indices},
+        {LIMN_CHUNK_SLOTS, m, mesh->slots, mesh->slots_size},
+    };
+    memcpy(parts, of_mesh, sizeof of_mesh);
+}
+
+static limn_bake_status make_class_records(limni_context *context, const limni_classes *classes,
+                                           limn_file_class **records, uint64_t *tables_size) {
+    *records = limni_allocate_zeroed(context, classes->count, sizeof **records);
+    if (!*records) return LIMN_BAKE_MEMORY;
+    uint64_t offset = 0;
+    for (uint32_t c = 0; c < classes->count; c++) {
+        const limni_class *const class = &classes->items[c];
+        limn_file_class *const record = &(*records)[c];
+        record->table_offset = offset;
+        record->control_count = class->control_count;
+        record->domain = LIMN_DOMAIN_TRIANGLE;
+        record->depth = LIMN_LEVEL_MAX;
+        record->boundary_corners = class->boundary_corners;
+        for (int corner = 0; corner < 3; corner++)
+            record->valences[corner] = (uint16_t) class->valences[corner];
+        offset += (uint64_t) class->control_count * LIMNI_TABLE_STRIDE * sizeof(float);
+    }
+    *tables_size = offset;
+    return LIMN_BAKE_OK;
+}
+
+static void copy_tables(const limni_classes *classes, unsigned char *dst) {
+    for (uint32_t c = 0; c < classes->count; c++) {
+        const limni_class *const class = &classes->items[c];
+        const size_t size = (size_t) class->control_count * LIMNI_TABLE_STRIDE * sizeof(float);
+        memcpy(dst, class->table, size);
+        dst += size;
+    }
+}
+
+static uint64_t align(uint64_t offset) {
+    return (offset + LIMN_FORMAT_ALIGNMENT - 1) / LIMN_FORMAT_ALIGNMENT * LIMN_FORMAT_ALIGNMENT;
+}
+
+/// Places the parts behind the directory. Returns the size of the file.
+static uint64_t place_parts(const part *parts, uint32_t count, limn_file_chunk *directory) {
+    uint64_t offset = sizeof(limn_file_header) + (uint64_t)count * sizeof *directory;
+    for (uint32_t p = 0; p < count; p++) {
+        offset = align(offset);
+        directory[p] = (limn_file_chunk){
+            .kind = parts[p].kind,
+            .mesh = parts[p].mesh,
+            .flags = LIMN_CHUNK_REQUIRED,
+            .offset = offset,
+            .size = parts[p].size,
+        };
+        offset += parts[p].size;
+    }
+    return offset;
+}
+
+static void fill_blob(const limni_classes *classes, const part *parts, uint32_t count,
+                      const limn_file_chunk *directory, limn_file_header *header,
+                      unsigned char *blob) {
+    for (uint32_t p = 0; p < count; p++) {
+        unsigned char *const dst = blob + directory[p].offset;
+        if (parts[p].kind == LIMN_CHUNK_TABLES) {
+            copy_tables(classes, dst);
+        } else if (parts[p].size) {
+            memcpy(dst, parts[p].data, (size_t)parts[p].size);
+        }
+    }
+    memcpy(blob, header, sizeof *header);
+    memcpy(blob + sizeof *header, directory, count * sizeof *directory);
+    const size_t summed = offsetof(limn_file_header, chunk_count);
+    header->checksum = limni_checksum(blob + summed, (size_t)header->size - summed);
+    memcpy(blob, header, sizeof *header);
+}
+
+/// How the file was baked. Nothing here depends on the host or on the time.
+static void describe(const limni_rules *rules, char *text, size_t size) {
+    snprintf(text, size, "scheme=loop weights=%s boundary=%s",
+             rules->weights == LIMN_WEIGHTS_WARREN ? "warren" : "loop",
+             rules->boundary == LIMN_BOUNDARY_EDGE_AND_CORNER ? "edge-and-corner" : "edge-only");
+}
+
+limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rules,
+                                  const limni_classes *classes, const limni_patches *meshes,
+                                  uint32_t mesh_count, unsigned char **blob, size_t *blob_size) {
+    const uint32_t part_count = CHUNKS_OF_FILE + CHUNKS_OF_MESH * mesh_count;
+    part *const parts = limni_allocate(context, part_count, sizeof *parts);
+    limn_file_chunk *const directory = limni_allocate(context, part_count, sizeof *directory);
+    limn_file_class *class_records;
+    uint64_t tables_size;
+    LIMNI_TRY(make_class_records(context, classes, &class_records, &tables_size));
+    if (!parts || !directory) return LIMN_BAKE_MEMORY;
+
+    char info[128];
+    describe(rules, info, sizeof info);
+    parts[0] = (part){LIMN_CHUNK_INFO, LIMN_FORMAT_NO_MESH, info, strlen(info) + 1};
+    parts[1] = (part){LIMN_CHUNK_CLASSES, LIMN_FORMAT_NO_MESH, class_records,
+                      classes->count * sizeof *class_records};
+    parts[2] = (part){LIMN_CHUNK_TABLES, LIMN_FORMAT_NO_MESH, NULL, tables_size};
+    for (uint32_t m = 0; m < mesh_count; m++)
+        list_mesh(&meshes[m], m, parts + CHUNKS_OF_FILE + CHUNKS_OF_MESH * m);
+    qsort(parts, part_count, sizeof *parts, compare_parts);
+
+    limn_file_header header = {
+        .version = LIMN_FORMAT_VERSION,
+        .size = place_parts(parts, part_count, directory),
+        .chunk_count = part_count,
+        .mesh_count = mesh_count,
+        .class_count = classes->count,
+    };
+    memcpy(header.magic, LIMN_FORMAT_MAGIC, sizeof header.magic);
+    *blob = limni_allocate_zeroed(context, (size_t)header.size, 1);
+    if (!*blob) return LIMN_BAKE_MEMORY;
+    *blob_size = (size_t)header.size;
+    fill_blob(classes, parts, part_count, directory, &header, *blob);
+    limni_release(context, parts);
+    limni_release(context, directory);
+    limni_release(context, class_records);
+    return LIMN_BAKE_OK;
+}

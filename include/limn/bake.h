@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The baker: turns meshes into a .limn file. Offline code: it allocates, takes its time, and says
+ * what it did. It never prints and never exits. A complete use:
+ *
+ *     limn_baker *baker = limn_baker_create(&(limn_bake_desc){.weights = LIMN_WEIGHTS_WARREN});
+ *     if (limn_baker_add_file(baker, "hero.obj") != LIMN_BAKE_OK ||
+ *         limn_baker_write(baker, "hero.limn") != LIMN_BAKE_OK)
+ *         fprintf(stderr, "%s\n", limn_baker_error(baker));
+ *     limn_baker_destroy(baker);
+ */
+#ifndef LIMN_BAKE_H
+#define LIMN_BAKE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum limn_bake_status {
+    LIMN_BAKE_OK,
+    LIMN_BAKE_BAD_INPUT, ///< the mesh cannot be baked; the text names the file, line, face or edge
+    LIMN_BAKE_IO,        ///< a file could not be read or written
+    LIMN_BAKE_MEMORY,    ///< out of memory
+    LIMN_BAKE_INTERNAL,  ///< the baker's own check failed: a defect; nothing was written
+} limn_bake_status;
+
+/// Vertex weights of Loop subdivision.
+typedef enum limn_weights {
+    LIMN_WEIGHTS_LOOP,  ///< Loop's own, from the cosine of the valence
+    LIMN_WEIGHTS_WARREN ///< Warren's: 3/8 in all on the neighbours, 9/16 at valence 3
+} limn_weights;
+
+/// What happens at boundary vertices. Boundary edges always give cubic B-spline curves.
+typedef enum limn_boundary {
+    LIMN_BOUNDARY_EDGE_ONLY,      ///< corners of the boundary are rounded
+    LIMN_BOUNDARY_EDGE_AND_CORNER ///< a boundary vertex with a single face stays where it is
+} limn_boundary;
+
+/// What may be mended, as bits. Done in this order.
+typedef enum limn_repair {
+    LIMN_REPAIR_WELD = 1 << 0, ///< merge control points whose positions are equal
+    LIMN_REPAIR_DROP = 1 << 1, ///< drop faces that use a control point twice or repeat another face
+    LIMN_REPAIR_SPLIT =
+        1 << 2, ///< cut the mesh open at non-manifold or inconsistently wound edges and vertices
+    LIMN_REPAIR_ALL = 7
+} limn_repair;
+
+/// A notice: triangulated polygons, unused control points, repairs. `text` is valid during the
+/// call.
+typedef void limn_bake_note_fn(void *user, const char *text);
+
+/// Progress of a step, `done` of `total` faces. Called at most a few hundred times per mesh.
+typedef void limn_bake_progress_fn(void *user, const char *step, uint32_t done, uint32_t total);
+
+/// Zero means default, everywhere.
+typedef struct limn_bake_desc {
+    limn_weights weights;
+    limn_boundary boundary;
+    uint32_t repair; ///< LIMN_REPAIR_… bits; 0: refuse what is not a clean manifold
+    limn_bake_note_fn *note;
+    limn_bake_progress_fn *progress;
+    void *user; ///< passed to the callbacks
+} limn_bake_desc;
+
+/// A polygon mesh in memory.
+typedef struct limn_bake_mesh {
+    const char *name;
+    const float *positions; ///< [position_count][3], model units
+    uint32_t position_count;
+    const uint32_t *face_sizes; ///< [face_count] corners of each face, at least 3; NULL: triangles
+    uint32_t face_count;
+    const uint32_t
+        *face_indices; ///< the corners of all faces, one after the other, counter-clockwise
+} limn_bake_mesh;
+
+typedef struct limn_baker limn_baker;
+
+/// A baker for one file. NULL desc: defaults. Returns NULL only when out of memory. Any thread; one
+/// thread at a time.
+limn_baker *limn_baker_create(const limn_bake_desc *desc);
+void limn_baker_destroy(limn_baker *baker);
+
+/// Adds the mesh in an .obj or .off file, named after the file. After an error the baker can only
+/// be destroyed.
+limn_bake_status limn_baker_add_file(limn_baker *baker, const char *path);
+
+/// Adds a mesh from memory, copying it. Errors name faces and vertices by index from 0.
+limn_bake_status limn_baker_add_mesh(limn_baker *baker, const limn_bake_mesh *mesh);
+
+/// Bakes all meshes into one blob that belongs to the baker, 64-byte aligned.
+limn_bake_status limn_baker_finish(limn_baker *baker, const void **blob, size_t *blob_size);
+
+/// The same, into a file: written aside and renamed, so that `path` holds either the old file or
+/// the whole new one.
+limn_bake_status limn_baker_write(limn_baker *baker, const char *path);
+
+/// The text of the last error; "" if there was none. Valid until the next call with this baker.
+const char *limn_baker_error(const limn_baker *baker);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
