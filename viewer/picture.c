@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT */
+#include "picture.h"
+
+#include "context.h"
+#include "renderer.h"
+#include "target.h"
+
+/// Lines keep their proportion to the picture, but stay visible in a small one.
+static float line_scale(const view_picture *picture) {
+    static const float usual = 960;
+    const uint32_t width = picture->width, height = picture->height;
+    const float scale = (float)(width < height ? width : height) / usual;
+    return scale > 0.7f ? scale : 0.7f;
+}
+
+static bool draw(const view_gl *gl, const view_scene *scene, const view_picture *picture,
+                 const view_target *target) {
+    view_frame frame = {
+        .width = target->width,
+        .height = target->height,
+        .pixel_scale = (float)target->pixel_scale * line_scale(picture),
+        .wireframe = picture->wireframe,
+        .control_mesh = picture->control_mesh,
+    };
+    const double aspect = (double)picture->width / picture->height;
+    if (!view_scene_frame(scene, aspect, picture->control_mesh, &frame.camera)) return false;
+
+    view_renderer *const renderer = view_renderer_create(gl, scene);
+    const bool drawn = renderer && view_renderer_draw(renderer, &frame);
+    view_renderer_destroy(renderer);
+    return drawn;
+}
+
+static bool draw_and_write(const view_context *context, const view_scene *scene,
+                           const view_picture *picture) {
+    view_gl gl;
+    if (!view_gl_load(&gl, context)) return false;
+    view_target target;
+    view_image image = {0};
+    const bool done = view_target_create(&target, &gl, picture->width, picture->height) &&
+                      draw(&gl, scene, picture, &target) && view_target_read(&target, &image) &&
+                      view_image_write_png(&image, picture->png_path);
+    view_image_free(&image);
+    view_target_destroy(&target);
+    return done;
+}
+
+bool view_picture_make(const view_picture *picture) {
+    view_scene scene;
+    bool done = view_scene_open(&scene, picture->limn_path, picture->level, picture->mesh_index);
+    if (done) {
+        view_context *const context = view_context_create();
+        done = context && draw_and_write(context, &scene, picture);
+        view_context_destroy(context);
+    }
+    view_scene_close(&scene);
+    return done;
+}

@@ -1,0 +1,284 @@
+/* SPDX-License-Identifier: MIT */
+#include "renderer.h"
+
+#include "program.h"
+#include "report.h"
+#include "shaders.h"
+#include <stddef.h>
+#include <stdlib.h>
+
+/// Vertices and indices on the GPU, and how they are laid out.
+typedef struct geometry {
+    GLuint layout;
+    GLuint vertex_buffer;
+    GLuint index_buffer;
+} geometry;
+
+/// A surface: one draw per patch, all with the same indices, in one call.
+typedef struct drawable {
+    geometry surface;
+    geometry control_edges;
+    geometry control_points;
+    GLsizei *index_counts; ///< [patch_count], as are the others
+    const void **index_offsets;
+    GLint *base_vertices;
+    const view_surface *source;
+} drawable;
+
+struct view_renderer {
+    const view_gl *gl;
+    GLuint background, shaded, wireframe, lines, points; ///< programs
+    GLuint empty_layout;
+    drawable *drawables;
+    uint32_t drawable_count;
+};
+
+// -------------------------------------------------------------------------------------------------
+// Creation
+
+static bool create_programs(view_renderer *renderer) {
+    const view_gl *const gl = renderer->gl;
+    renderer->background =
+        view_program_create(gl, &(view_program_sources){.name = "background",
+                                                        .vertex = background_vertex_source,
+                                                        .fragment = background_fragment_source});
+    renderer->shaded =
+        view_program_create(gl, &(view_program_sources){.name = "surface",
+                                                        .vertex = surface_vertex_source,
+                                                        .fragment = surface_fragment_source});
+    renderer->wireframe =
+        view_program_create(gl, &(view_program_sources){.name = "wireframe",
+                                                        .vertex = surface_vertex_source,
+                                                        .geometry = wireframe_geometry_source,
+                                                        .fragment = surface_fragment_source,
+                                                        .definitions = "#define WIREFRAME\n"});
+    renderer->lines =
+        view_program_create(gl, &(view_program_sources){.name = "line",
+                                                        .vertex = overlay_vertex_source,
+                                                        .geometry = line_geometry_source,
+                                                        .fragment = overlay_fragment_source});
+    renderer->points =
+        view_program_create(gl, &(view_program_sources){.name = "point",
+                                                        .vertex = overlay_vertex_source,
+                                                        .geometry = point_geometry_source,
+                                                        .fragment = overlay_fragment_source});
+    return renderer->background && renderer->shaded && renderer->wireframe && renderer->lines &&
+           renderer->points;
+}
+
+/// Makes a layout, fills its buffers, and leaves the layout bound for the attributes.
+static geometry create_geometry(const view_gl *gl, const void *vertices, size_t vertices_size,
+                                const void *indices, size_t indices_size) {
+    geometry result;
+    gl->GenVertexArrays(1, &result.layout);
+    gl->GenBuffers(1, &result.vertex_buffer);
+    gl->GenBuffers(1, &result.index_buffer);
+    gl->BindVertexArray(result.layout);
+    gl->BindBuffer(GL_ARRAY_BUFFER, result.vertex_buffer);
+    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)vertices_size, vertices, GL_STATIC_DRAW);
+    gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, result.index_buffer);
+    gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)indices_size, indices, GL_STATIC_DRAW);
+    return result;
+}
+
+static void set_floats(const view_gl *gl, GLuint attribute, size_t stride, size_t offset) {
+    gl->EnableVertexAttribArray(attribute);
+    gl->VertexAttribPointer(attribute, 3, GL_FLOAT, GL_FALSE, (GLsizei)stride,
+                            (const void *)(uintptr_t)offset);
+}
+
+static void upload_surface(const view_gl *gl, drawable *target, const view_surface *source) {
+    const uint32_t level = source->plan.level;
+    const limn_domain *const domain = source->mesh.domain;
+    target->surface = create_geometry(
+        gl, source->vertices, (size_t)source->plan.vertex_count * sizeof(view_vertex),
+        domain->indices[level], domain->index_counts[level] * sizeof(uint16_t));
+    set_floats(gl, 0, sizeof(view_vertex), offsetof(view_vertex, position));
+    set_floats(gl, 1, sizeof(view_vertex), offsetof(view_vertex, normal));
+    gl->EnableVertexAttribArray(2);
+    gl->VertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_FALSE, (GLsizei)sizeof(view_vertex),
+                            (const void *)offsetof(view_vertex, borders));
+}
+
+static void upload_control_mesh(const view_gl *gl, drawable *target, const view_surface *source) {
+    const view_control_mesh *const control_mesh = &source->control_mesh;
+    const size_t controls_size = (size_t)source->mesh.control_count * sizeof(float[3]);
+    target->control_edges =
+        create_geometry(gl, source->mesh.controls, controls_size, control_mesh->edges,
+                        control_mesh->edge_count * sizeof(uint32_t[2]));
+    set_floats(gl, 0, sizeof(float[3]), 0);
+    target->control_points =
+        create_geometry(gl, source->mesh.controls, controls_size, control_mesh->points,
+                        control_mesh->point_count * sizeof(uint32_t));
+    set_floats(gl, 0, sizeof(float[3]), 0);
+}
+
+static bool list_draws(drawable *target, const view_surface *source) {
+    const limn_plan *const plan = &source->plan;
+    const size_t room = (size_t)plan->patch_count + 1;
+    target->index_counts = calloc(room, sizeof *target->index_counts);
+    target->index_offsets = calloc(room, sizeof *target->index_offsets);
+    target->base_vertices = calloc(room, sizeof *target->base_vertices);
+    if (!target->index_counts || !target->index_offsets || !target->base_vertices) return false;
+    for (uint32_t patch = 0; patch < plan->patch_count; patch++) {
+        target->index_counts[patch] = source->mesh.domain->index_counts[plan->level];
+        target->base_vertices[patch] = (GLint)limn_plan_first_vertex(plan, patch);
+    }
+    return true;
+}
+
+static bool create_drawables(view_renderer *renderer, const view_scene *scene) {
+    renderer->drawables = calloc((size_t)scene->surface_count + 1, sizeof *renderer->drawables);
+    if (!renderer->drawables) return view_fail("out of memory");
+    renderer->drawable_count = scene->surface_count;
+    for (uint32_t i = 0; i < scene->surface_count; i++) {
+        drawable *const target = &renderer->drawables[i];
+        target->source = &scene->surfaces[i];
+        if (!list_draws(target, target->source)) return view_fail("out of memory");
+        upload_surface(renderer->gl, target, target->source);
+        upload_control_mesh(renderer->gl, target, target->source);
+    }
+    return view_gl_check(renderer->gl, "uploading the meshes");
+}
+
+view_renderer *view_renderer_create(const view_gl *gl, const view_scene *scene) {
+    view_renderer *const renderer = calloc(1, sizeof *renderer);
+    if (!renderer) {
+        view_fail("out of memory");
+        return NULL;
+    }
+    renderer->gl = gl;
+    gl->GenVertexArrays(1, &renderer->empty_layout);
+    if (!create_programs(renderer) || !create_drawables(renderer, scene)) {
+        view_renderer_destroy(renderer);
+        return NULL;
+    }
+    return renderer;
+}
+
+// -------------------------------------------------------------------------------------------------
+// Drawing
+
+static void use_program(const view_gl *gl, GLuint program, const view_frame *frame) {
+    gl->UseProgram(program);
+    // A uniform that a program does not have is at -1, where setting it does nothing.
+    gl->UniformMatrix4fv(gl->GetUniformLocation(program, "view"), 1, GL_FALSE, frame->camera.view);
+    gl->UniformMatrix4fv(gl->GetUniformLocation(program, "projection"), 1, GL_FALSE,
+                         frame->camera.projection);
+    gl->Uniform2f(gl->GetUniformLocation(program, "viewport"), (float)frame->width,
+                  (float)frame->height);
+    gl->Uniform1f(gl->GetUniformLocation(program, "pixel_scale"), frame->pixel_scale);
+}
+
+static void draw_background(const view_renderer *renderer, const view_frame *frame) {
+    const view_gl *const gl = renderer->gl;
+    gl->Disable(GL_DEPTH_TEST);
+    use_program(gl, renderer->background, frame);
+    gl->BindVertexArray(renderer->empty_layout);
+    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+    gl->Enable(GL_DEPTH_TEST);
+}
+
+static void draw_surfaces(const view_renderer *renderer, const view_frame *frame) {
+    const view_gl *const gl = renderer->gl;
+    use_program(gl, frame->wireframe ? renderer->wireframe : renderer->shaded, frame);
+    for (uint32_t i = 0; i < renderer->drawable_count; i++) {
+        const drawable *const target = &renderer->drawables[i];
+        gl->BindVertexArray(target->surface.layout);
+        gl->MultiDrawElementsBaseVertex(
+            GL_TRIANGLES, target->index_counts, GL_UNSIGNED_SHORT, target->index_offsets,
+            (GLsizei)target->source->plan.patch_count, target->base_vertices);
+    }
+}
+
+/// How a part of the control mesh looks.
+typedef struct overlay_style {
+    float red, green, blue, opacity;
+    float line_radius, point_radius; ///< pixels
+} overlay_style;
+
+static void set_style(const view_gl *gl, GLuint program, const overlay_style *style, float radius) {
+    gl->Uniform4f(gl->GetUniformLocation(program, "overlay_color"), style->red, style->green,
+                  style->blue, style->opacity);
+    gl->Uniform1f(gl->GetUniformLocation(program, "radius"), radius);
+}
+
+static void draw_control_meshes(const view_renderer *renderer, const view_frame *frame,
+                                const overlay_style *style) {
+    const view_gl *const gl = renderer->gl;
+    use_program(gl, renderer->lines, frame);
+    set_style(gl, renderer->lines, style, style->line_radius * frame->pixel_scale);
+    for (uint32_t i = 0; i < renderer->drawable_count; i++) {
+        const drawable *const target = &renderer->drawables[i];
+        gl->BindVertexArray(target->control_edges.layout);
+        gl->DrawElements(GL_LINES, (GLsizei)(2 * target->source->control_mesh.edge_count),
+                         GL_UNSIGNED_INT, NULL);
+    }
+    use_program(gl, renderer->points, frame);
+    set_style(gl, renderer->points, style, style->point_radius * frame->pixel_scale);
+    for (uint32_t i = 0; i < renderer->drawable_count; i++) {
+        const drawable *const target = &renderer->drawables[i];
+        gl->BindVertexArray(target->control_points.layout);
+        gl->DrawElements(GL_POINTS, (GLsizei)target->source->control_mesh.point_count,
+                         GL_UNSIGNED_INT, NULL);
+    }
+}
+
+/// What the surface hides first, faintly; then what stands in front of it.
+static void draw_overlay(const view_renderer *renderer, const view_frame *frame) {
+    static const overlay_style hidden = {0.01f, 0.06f, 0.15f, 0.24f, 0.5f, 1.6f};
+    static const overlay_style visible = {0.02f, 0.13f, 0.34f, 0.95f, 0.7f, 2.8f};
+    const view_gl *const gl = renderer->gl;
+    gl->Enable(GL_BLEND);
+    gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    gl->DepthMask(GL_FALSE);
+    gl->DepthFunc(GL_GREATER);
+    draw_control_meshes(renderer, frame, &hidden);
+    gl->DepthFunc(GL_LEQUAL);
+    draw_control_meshes(renderer, frame, &visible);
+    gl->DepthMask(GL_TRUE);
+    gl->DepthFunc(GL_LESS);
+    gl->Disable(GL_BLEND);
+}
+
+bool view_renderer_draw(const view_renderer *renderer, const view_frame *frame) {
+    const view_gl *const gl = renderer->gl;
+    gl->Viewport(0, 0, (GLsizei)frame->width, (GLsizei)frame->height);
+    gl->Enable(GL_FRAMEBUFFER_SRGB);
+    gl->Enable(GL_MULTISAMPLE);
+    gl->Clear(GL_DEPTH_BUFFER_BIT);
+    draw_background(renderer, frame);
+    draw_surfaces(renderer, frame);
+    if (frame->control_mesh) draw_overlay(renderer, frame);
+    return view_gl_check(gl, "drawing");
+}
+
+// -------------------------------------------------------------------------------------------------
+// Destruction
+
+static void delete_geometry(const view_gl *gl, const geometry *old) {
+    gl->DeleteVertexArrays(1, &old->layout);
+    gl->DeleteBuffers(1, &old->vertex_buffer);
+    gl->DeleteBuffers(1, &old->index_buffer);
+}
+
+void view_renderer_destroy(view_renderer *renderer) {
+    if (!renderer) return;
+    const view_gl *const gl = renderer->gl;
+    for (uint32_t i = 0; i < renderer->drawable_count; i++) {
+        drawable *const target = &renderer->drawables[i];
+        delete_geometry(gl, &target->surface);
+        delete_geometry(gl, &target->control_edges);
+        delete_geometry(gl, &target->control_points);
+        free(target->index_counts);
+        free(target->index_offsets);
+        free(target->base_vertices);
+    }
+    free(renderer->drawables);
+    const GLuint programs[] = {renderer->background, renderer->shaded, renderer->wireframe,
+                               renderer->lines, renderer->points};
+    for (size_t i = 0; i < sizeof programs / sizeof *programs; i++)
+        gl->DeleteProgram(programs[i]);
+    gl->DeleteVertexArrays(1, &renderer->empty_layout);
+    free(renderer);
+}

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT */
+/* Draws a scene into the framebuffer that is bound. Knows no window, file or picture. */
+#ifndef VIEW_RENDERER_H
+#define VIEW_RENDERER_H
+
+#include "camera.h"
+#include "gl.h"
+#include "scene.h"
+
+typedef struct view_renderer view_renderer;
+
+/// One picture.
+typedef struct view_frame {
+    view_camera camera;
+    uint32_t width, height; ///< of the framebuffer, which must encode sRGB
+    float pixel_scale;      ///< framebuffer pixels per pixel of line width
+    bool wireframe;
+    bool control_mesh;
+} view_frame;
+
+/// Uploads a scene, which must outlive the renderer, as must `gl`. Reports why and returns NULL on
+/// failure.
+view_renderer *view_renderer_create(const view_gl *gl, const view_scene *scene);
+
+/// Reports why and returns false on failure.
+bool view_renderer_draw(const view_renderer *renderer, const view_frame *frame);
+
+/// Takes NULL as well. The context must still be current.
+void view_renderer_destroy(view_renderer *renderer);
+
+#endif

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT */
+/* The meshes of a .limn file, evaluated: everything that a picture shows, and no OpenGL. */
+#ifndef VIEW_SCENE_H
+#define VIEW_SCENE_H
+
+#include "blob_file.h"
+#include "camera.h"
+#include "control_mesh.h"
+#include "limn/limn.h"
+#include <stdbool.h>
+
+/// One vertex as it is drawn.
+typedef struct view_vertex {
+    float position[3];
+    float normal[3];
+    uint8_t borders[4]; ///< grid steps, at most 16, from each edge of the patch; 255: no such edge
+} view_vertex;
+
+/// One mesh at one level.
+typedef struct view_surface {
+    limn_mesh mesh;
+    limn_plan plan;        ///< of `mesh` above
+    view_vertex *vertices; ///< [plan.vertex_count]
+    view_control_mesh control_mesh;
+} view_surface;
+
+typedef struct view_scene {
+    limni_blob_file blob;
+    limn_pack pack;
+    view_surface *surfaces;
+    uint32_t surface_count;
+} view_scene;
+
+enum { VIEW_ALL_MESHES = -1 };
+
+/// Opens a file and evaluates one of its meshes, or VIEW_ALL_MESHES. Reports why and returns false
+/// on failure. The scene must stay where it is, and be closed in either case.
+bool view_scene_open(view_scene *scene, const char *path, uint32_t level, long mesh_index);
+
+void view_scene_close(view_scene *scene);
+
+/// A camera that sees all surfaces at their finest level, whatever level the scene has, so that
+/// pictures of different levels lie on top of each other; and the control points, if asked to.
+/// Reports why and returns false on failure.
+bool view_scene_frame(const view_scene *scene, double aspect, bool with_controls,
+                      view_camera *camera);
+
+#endif
