@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT */
+/* The program `limn-bench`: arguments and exit codes only. */
+#include "bench.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const struct {
+    const char *name;
+    int (*run)(int argc, char **argv);
+    const char *summary;
+} benches[] = {
+    {"bake", bench_bake,
+     "time to bake, peak memory, and stored bytes beside OpenSubdiv's stencils"},
+};
+
+enum { BENCH_COUNT = sizeof benches / sizeof *benches };
+
+static int print_help(FILE *stream, int status) {
+    fprintf(stream,
+            "usage: limn-bench NAME [OPTIONS]\n       limn-bench NAME --help\n\nbenchmarks:\n");
+    for (int b = 0; b < BENCH_COUNT; b++)
+        fprintf(stream, "  %-8s %s\n", benches[b].name, benches[b].summary);
+    return status;
+}
+
+int main(int argc, char **argv) {
+    if (argc < 2) return print_help(stderr, 2);
+    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) return print_help(stdout, 0);
+    for (int b = 0; b < BENCH_COUNT; b++) {
+        if (strcmp(argv[1], benches[b].name) == 0) return benches[b].run(argc - 1, argv + 1);
+    }
+    fprintf(stderr, "limn-bench: there is no benchmark '%s'; see limn-bench --help\n", argv[1]);
+    return 2;
+}

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT */
+#include "bench.h"
+
+#include "limn/limn.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+double bench_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static int compare_doubles(const void *a, const void *b) {
+    const double left = *(const double *)a, right = *(const double *)b;
+    return (left > right) - (left < right);
+}
+
+double bench_median(double *values, int count) {
+    qsort(values, (size_t)count, sizeof *values, compare_doubles);
+    return count % 2 ? values[count / 2] : (values[count / 2 - 1] + values[count / 2]) / 2;
+}
+
+static void print_cpu(void) {
+    char line[256];
+    FILE *const file = fopen("/proc/cpuinfo", "r");
+    while (file && fgets(line, sizeof line, file)) {
+        if (strncmp(line, "model name", 10) != 0) continue;
+        printf("%s", strchr(line, ':') + 2);
+        break;
+    }
+    if (file) fclose(file);
+}
+
+void bench_print_conditions(void) {
+    printf("limn %d.%d.%d, commit %s, %s, flags %s, CPU ", LIMN_VERSION_MAJOR, LIMN_VERSION_MINOR,
+           LIMN_VERSION_PATCH, BENCH_COMMIT, BENCH_COMPILER, BENCH_FLAGS);
+    print_cpu();
+}
