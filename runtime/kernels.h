@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * One table of kernels per instruction set. To add an instruction set: a lanes_<isa>.h, a
- * kernels_<isa>.c and a line in kernels.c. To add a kernel: a body and a field.
+ * kernels_<isa>.c and a line in kernels.c and in simd/CMakeLists.txt. To add a kernel: a body and a field.
  */
 #ifndef LIMNI_KERNELS_H
 #define LIMNI_KERNELS_H
@@ -49,12 +49,14 @@ static inline uint32_t limni_slot_size(const limn_file_class *class) {
 struct limn_kernels {
     const char *name;
     uint32_t isa;
+    limn_family family;
     void (*evaluate)(const limni_run *run, const limni_points *points, const limni_target *target);
 };
 
+/// Those that are built are listed in kernels.c.
 extern const limn_kernels limni_kernels_scalar;
-#if defined(__SSE2__)
 extern const limn_kernels limni_kernels_sse2;
-#endif
+extern const limn_kernels limni_kernels_avx2, limni_kernels_avx2_fast;
+extern const limn_kernels limni_kernels_neon, limni_kernels_neon_fast;
 
 #endif

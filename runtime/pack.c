@@ -64,16 +64,16 @@ static bool chunk_has_size(const limn_pack *pack, uint32_t mesh, uint32_t kind, 
     return chunk && chunk->size % record_size == 0 && chunk->size / record_size == count;
 }
 
+static const uint32_t kinds_of_file[] = {LIMN_CHUNK_INFO, LIMN_CHUNK_CLASSES, LIMN_CHUNK_TABLES};
+static const uint32_t kinds_of_mesh[] = {LIMN_CHUNK_MESH, LIMN_CHUNK_NAME,  LIMN_CHUNK_CONTROLS,
+                                         LIMN_CHUNK_RUNS, LIMN_CHUNK_FACES, LIMN_CHUNK_INDICES,
+                                         LIMN_CHUNK_SLOTS};
+
 static bool is_known(const limn_file_chunk *chunk) {
-    static const uint32_t of_file[] = {LIMN_CHUNK_INFO, LIMN_CHUNK_CLASSES, LIMN_CHUNK_TABLES};
-    static const uint32_t of_mesh[] = {LIMN_CHUNK_MESH, LIMN_CHUNK_NAME,  LIMN_CHUNK_CONTROLS,
-                                       LIMN_CHUNK_RUNS, LIMN_CHUNK_FACES, LIMN_CHUNK_INDICES,
-                                       LIMN_CHUNK_SLOTS};
     const bool in_file = chunk->mesh == LIMN_FORMAT_NO_MESH;
-    const uint32_t *const kinds = in_file ? of_file : of_mesh;
-    const size_t count =
-        in_file ? sizeof of_file / sizeof *of_file : sizeof of_mesh / sizeof *of_mesh;
-    for (size_t k = 0; k < count; k++) {
+    const uint32_t *const kinds = in_file ? kinds_of_file : kinds_of_mesh;
+    const size_t size = in_file ? sizeof kinds_of_file : sizeof kinds_of_mesh;
+    for (size_t k = 0; k < size / sizeof *kinds; k++) {
         if (chunk->kind == kinds[k]) return true;
     }
     return false;
@@ -173,15 +173,17 @@ static limn_result validate_classes(const limn_pack *pack) {
 // ---- Validation of a mesh
 
 static limn_result validate_mesh_sizes(const limn_pack *pack, uint32_t m) {
+    for (size_t k = 0; k < sizeof kinds_of_mesh / sizeof *kinds_of_mesh; k++) {
+        if (!find_chunk(pack, m, kinds_of_mesh[k])) return LIMN_ERROR_CHUNK;
+    }
     if (!chunk_has_size(pack, m, LIMN_CHUNK_MESH, 1, sizeof(limn_file_mesh)))
-        return LIMN_ERROR_CHUNK;
+        return LIMN_ERROR_MESH;
     const limn_file_mesh *const record = chunk_data(pack, m, LIMN_CHUNK_MESH);
     if (record->domain >= LIMN_DOMAIN_COUNT ||
         !chunk_has_size(pack, m, LIMN_CHUNK_CONTROLS, record->control_count, 3 * sizeof(float)) ||
         !chunk_has_size(pack, m, LIMN_CHUNK_RUNS, record->run_count, sizeof(limn_file_run)) ||
         !chunk_has_size(pack, m, LIMN_CHUNK_FACES, record->patch_count, sizeof(uint32_t)) ||
-        !chunk_has_size(pack, m, LIMN_CHUNK_INDICES, record->index_count, sizeof(uint32_t)) ||
-        !find_chunk(pack, m, LIMN_CHUNK_SLOTS))
+        !chunk_has_size(pack, m, LIMN_CHUNK_INDICES, record->index_count, sizeof(uint32_t)))
         return LIMN_ERROR_MESH;
     return LIMN_OK;
 }
@@ -276,10 +278,11 @@ limn_result limn_pack_open(limn_pack *pack, const void *blob, size_t blob_size) 
     TRY(validate_directory(&opened));
     TRY(validate_text(&opened, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_INFO));
     TRY(validate_classes(&opened));
+    opened.classes = chunk_data(&opened, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_CLASSES);
     for (uint32_t m = 0; m < opened.mesh_count; m++)
         TRY(validate_mesh(&opened, m));
     opened.info = chunk_data(&opened, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_INFO);
-    opened.kernels = limn_kernels_select(LIMN_ISA_ALL);
+    opened.kernels = limn_kernels_select(LIMN_ISA_ALL, LIMN_FAMILY_REPRODUCIBLE);
     *pack = opened;
     return LIMN_OK;
 }
@@ -299,7 +302,7 @@ limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index) {
         .slots = chunk_data(pack, mesh_index, LIMN_CHUNK_SLOTS),
         .tables = chunk_data(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES),
         .runs = chunk_data(pack, mesh_index, LIMN_CHUNK_RUNS),
-        .classes = chunk_data(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_CLASSES),
+        .classes = pack->classes,
         .kernels = pack->kernels,
     };
     memcpy(mesh.bounds_min, record->bounds_min, sizeof mesh.bounds_min);

@@ -6,5 +6,6 @@
 const limn_kernels limni_kernels_scalar = {
     .name = "scalar",
     .isa = LIMN_ISA_SCALAR,
+    .family = LIMN_FAMILY_REPRODUCIBLE,
     .evaluate = evaluate_run,
 };

@@ -125,21 +125,32 @@ const limn_domain *limn_domain_get(limn_domain_kind kind);
 typedef enum limn_isa {
     LIMN_ISA_SCALAR = 1 << 0, ///< always there
     LIMN_ISA_SSE2 = 1 << 1,
+    LIMN_ISA_AVX2 = 1 << 2,
+    LIMN_ISA_NEON = 1 << 3, ///< AArch64
     LIMN_ISA_ALL = 0x7fffffff
 } limn_isa;
 
-/// The kernels of one instruction set: opaque and static.
+/// How kernels round. With both, vertices that neighbouring patches share get the same bits.
+typedef enum limn_family {
+    LIMN_FAMILY_REPRODUCIBLE, ///< every product and every sum is rounded: the same bits on every
+                              ///< instruction set, compiler and optimisation level
+    LIMN_FAMILY_FAST          ///< fused multiply-add where the CPU has it: other bits than without
+} limn_family;
+
+/// The kernels of one instruction set and family: opaque and static.
 typedef struct limn_kernels limn_kernels;
 
 /// The instruction sets that this library was built with and this CPU has. Never fails; any thread.
 uint32_t limn_isa_supported(void);
 
 /// The best supported kernels among the instruction sets in `isa_mask`; scalar ones if there is no
-/// other. All of them give the same bits. Never fails; any thread.
-const limn_kernels *limn_kernels_select(uint32_t isa_mask);
+/// other. Where an instruction set has no fused multiply-add, its fast kernels are its reproducible
+/// ones. Asks the CPU each time: keep the pointer. Never fails; any thread.
+const limn_kernels *limn_kernels_select(uint32_t isa_mask, limn_family family);
 
-/// "scalar", "sse2", …
+/// "scalar", "sse2", "avx2" or "neon".
 const char *limn_kernels_name(const limn_kernels *kernels);
+limn_family limn_kernels_family(const limn_kernels *kernels);
 
 // -------------------------------------------------------------------------------------------------
 // Packs and meshes
@@ -152,7 +163,8 @@ typedef struct limn_pack {
     const char *info; ///< how the file was baked, as words `key=value`
     uint32_t mesh_count;
     uint32_t class_count;
-    const limn_kernels *kernels; ///< limn_kernels_select(LIMN_ISA_ALL); replace it to use another
+    const struct limn_file_class *classes; ///< [class_count], see format.h
+    const limn_kernels *kernels; ///< the best reproducible ones; replace them to use others
 } limn_pack;
 
 /// A view of one mesh of a pack. Plain data; copy it freely.

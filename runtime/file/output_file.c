@@ -45,9 +45,37 @@ static FILE *open_stream(limni_output_file *file) {
     return stream;
 }
 
+/// Where a link leads that leads nowhere yet: one step, relative to the folder of the link.
+static char *follow_link(const char *path) {
+    char link[4096];
+    const ssize_t length = readlink(path, link, sizeof link);
+    if (length <= 0 || (size_t)length == sizeof link) return NULL;
+    const char *const slash = strrchr(path, '/');
+    const size_t folder = slash && link[0] != '/' ? (size_t)(slash + 1 - path) : 0;
+    char *const target = malloc(folder + (size_t)length + 1);
+    if (!target) return NULL;
+    memcpy(target, path, folder);
+    memcpy(target + folder, link, (size_t)length);
+    target[folder + (size_t)length] = '\0';
+    return target;
+}
+
+/// What is to be written: the file that links lead to, which need not be there yet.
+static char *resolve(const char *path) {
+    char *target = realpath(path, NULL);
+    if (target) return target;
+    target = strdup(path);
+    for (int links = 0; target && links < 40; links++) {
+        char *const next = follow_link(target);
+        if (!next) break;
+        free(target);
+        target = next;
+    }
+    return target;
+}
+
 bool limni_output_open(limni_output_file *file, const char *path) {
-    char *const real = realpath(path, NULL); // follows links; NULL where there is no file yet
-    *file = (limni_output_file){.target = real ? real : strdup(path)};
+    *file = (limni_output_file){.target = resolve(path)};
     if (file->target) file->stream = open_stream(file);
     return file->stream || fail(file, "write");
 }

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: MIT */
+#include "lanes_avx2.h"
+
+#include "evaluate_body.h"
+
+const limn_kernels limni_kernels_avx2 = {
+    .name = "avx2",
+    .isa = LIMN_ISA_AVX2,
+    .family = LIMN_FAMILY_REPRODUCIBLE,
+    .evaluate = evaluate_run,
+};

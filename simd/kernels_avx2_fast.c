@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT */
+#define LANES_FUSED
+#include "lanes_avx2.h"
+
+#include "evaluate_body.h"
+
+const limn_kernels limni_kernels_avx2_fast = {
+    .name = "avx2",
+    .isa = LIMN_ISA_AVX2,
+    .family = LIMN_FAMILY_FAST,
+    .evaluate = evaluate_run,
+};

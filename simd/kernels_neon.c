@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: MIT */
+#include "lanes_neon.h"
+
+#include "evaluate_body.h"
+
+const limn_kernels limni_kernels_neon = {
+    .name = "neon",
+    .isa = LIMN_ISA_NEON,
+    .family = LIMN_FAMILY_REPRODUCIBLE,
+    .evaluate = evaluate_run,
+};

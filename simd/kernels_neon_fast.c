@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT */
+#define LANES_FUSED
+#include "lanes_neon.h"
+
+#include "evaluate_body.h"
+
+const limn_kernels limni_kernels_neon_fast = {
+    .name = "neon",
+    .isa = LIMN_ISA_NEON,
+    .family = LIMN_FAMILY_FAST,
+    .evaluate = evaluate_run,
+};

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT */
+/* With LANES_FUSED, lanes_multiply_add() is one instruction with one rounding, which needs FMA. */
+#ifndef LANES_H
+#define LANES_H
+
+#include <immintrin.h>
+
+typedef __m256 lanes;
+
+#define LANES_WIDTH 8
+#define LANES_TILE 4 ///< 12 accumulators, 3 splats and 1 column fill the 16 registers
+
+static inline lanes lanes_zero(void) {
+    return _mm256_setzero_ps();
+}
+static inline lanes lanes_splat(float value) {
+    return _mm256_set1_ps(value);
+}
+/// src: aligned to 32 bytes.
+static inline lanes lanes_load(const float *src) {
+    return _mm256_load_ps(src);
+}
+static inline void lanes_store(float *dst, lanes a) {
+    _mm256_store_ps(dst, a);
+}
+static inline lanes lanes_add(lanes a, lanes b) {
+    return _mm256_add_ps(a, b);
+}
+static inline lanes lanes_subtract(lanes a, lanes b) {
+    return _mm256_sub_ps(a, b);
+}
+static inline lanes lanes_multiply(lanes a, lanes b) {
+    return _mm256_mul_ps(a, b);
+}
+#ifdef LANES_FUSED
+/// a * b + c, rounded once.
+static inline lanes lanes_multiply_add(lanes a, lanes b, lanes c) {
+    return _mm256_fmadd_ps(a, b, c);
+}
+#else
+/// a * b + c, rounded twice.
+static inline lanes lanes_multiply_add(lanes a, lanes b, lanes c) {
+    return _mm256_add_ps(_mm256_mul_ps(a, b), c);
+}
+#endif
+/// Lane by lane: a > b ? x : y.
+static inline lanes lanes_select_greater(lanes a, lanes b, lanes x, lanes y) {
+    return _mm256_blendv_ps(y, x, _mm256_cmp_ps(a, b, _CMP_GT_OQ));
+}
+/// Lane by lane: a == 0 ? x : y.
+static inline lanes lanes_select_zero(lanes a, lanes x, lanes y) {
+    return _mm256_blendv_ps(y, x, _mm256_cmp_ps(a, _mm256_setzero_ps(), _CMP_EQ_OQ));
+}
+
+#endif
