@@ -56,6 +56,7 @@ static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     limni_release(context, source->position_lines);
     limni_release(context, source->face_offsets);
     limni_release(context, source->face_corners);
+    limni_release(context, source->face_numbers);
     limni_release(context, source->face_lines);
     limni_release(context, mesh.faces);
     limni_release(context, mesh.polygons);
@@ -98,7 +99,7 @@ static limn_bake_status check_mesh(limni_context *context, const limn_bake_mesh 
         }
         *corner_count += size;
     }
-    if (*corner_count > UINT32_MAX / 4)
+    if (*corner_count > UINT32_MAX)
         return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: too many faces", name);
     return LIMN_BAKE_OK;
 }

@@ -1,11 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* The classes of a file: a dictionary from keys to stencil tables, shared by all its meshes. */
+/*
+ * The classes of a file: a dictionary from keys to stencil tables, shared by all its meshes.
+ *
+ * A key names all control points around a face, but at a boundary not all of them have a say. Columns
+ * that are zero everywhere are left out of the tables, and keys whose tables turn out equal share one.
+ */
 #ifndef LIMNI_CLASSES_H
 #define LIMNI_CLASSES_H
 
 #include "classify.h"
 
-enum { LIMNI_TABLE_STRIDE = 160 }; ///< rows of a table column, padded
+enum {
+    LIMNI_TABLE_STRIDE = 160,   ///< rows of a table column, padded
+    LIMNI_SLOT_UNUSED = 0xffff, ///< of a control point without a column
+};
 
 /// One column of a table, along one edge of the triangle, as a number: 0 if it is zero there. Two
 /// classes agree on an edge if their columns along it do.
@@ -14,26 +22,39 @@ typedef struct limni_edge_prints {
     uint64_t against[3]; ///< read the other way, as the neighbour sees it
 } limni_edge_prints;
 
+/// A stencil table.
 typedef struct limni_class {
-    uint32_t *key;
-    uint32_t key_size;
     uint32_t control_count;
-    uint32_t valences[3];
+    uint32_t valences[3];      ///< of the first key that has this table
     uint32_t boundary_corners; ///< bit c
     float *table;              ///< [control_count][LIMNI_TABLE_STRIDE]
     limni_edge_prints *prints; ///< [control_count]
 } limni_class;
 
+/// A topology, and the table that it uses.
+typedef struct limni_class_key {
+    uint32_t *words; ///< [size]
+    uint32_t size;
+    uint32_t class_index;
+    uint16_t *slots; ///< [control count of the local base] the column of each, or LIMNI_SLOT_UNUSED
+} limni_class_key;
+
+/// Indices by hash, LIMNI_NONE where free. The size is a power of two.
+typedef struct limni_index_table {
+    uint32_t *indices;
+    uint32_t size;
+} limni_index_table;
+
 typedef struct limni_classes {
     limni_class *items;
-    uint32_t count, capacity;
-    uint32_t *hash_table; ///< [hash_size] indices of items, or LIMNI_NONE
-    uint32_t hash_size;
+    limni_class_key *keys;
+    uint32_t count, key_count, capacity; ///< there are never more items than keys
+    limni_index_table by_key, by_table;
 } limni_classes;
 
-/// The index of the class of a local base, made on first sight.
+/// The index of the key of a local base. Its class is made on first sight.
 limn_bake_status limni_classes_find(limni_context *context, limni_classes *classes,
                                     const limni_rules *rules, const limni_local_base *base,
-                                    uint32_t *class_index);
+                                    uint32_t *key_index);
 
 #endif

@@ -38,11 +38,6 @@ static uint64_t patch_size(const limn_mesh *mesh) {
     return size;
 }
 
-/// The class records, shared by all meshes.
-static const limn_file_class *classes_of(const limn_pack *pack) {
-    return pack->mesh_count ? limn_pack_mesh(pack, 0).classes : NULL;
-}
-
 static uint64_t use_count(const limn_pack *pack, uint32_t class_index) {
     uint64_t count = 0;
     for (uint32_t m = 0; m < pack->mesh_count; m++) {
@@ -57,8 +52,19 @@ static uint64_t use_count(const limn_pack *pack, uint32_t class_index) {
 static uint64_t total_table_size(const limn_pack *pack) {
     uint64_t size = 0;
     for (uint32_t c = 0; c < pack->class_count; c++)
-        size += table_size(&classes_of(pack)[c]);
+        size += table_size(&pack->classes[c]);
     return size;
+}
+
+/// A string; of one that is not UTF-8, as file names may be, only the ASCII remains.
+static json_t *json_text(const char *text) {
+    json_t *const string = json_string(text);
+    if (string) return string;
+    char ascii[256];
+    size_t length = 0;
+    for (; text[length] && length < sizeof ascii; length++)
+        ascii[length] = (unsigned char)text[length] < 0x80 ? text[length] : '?';
+    return json_stringn(ascii, length);
 }
 
 static json_t *json_size(uint64_t value) {
@@ -71,14 +77,14 @@ static json_t *describe_file(const limn_pack *pack) {
     json_object_set_new(file, "size", json_size(pack->blob_size));
     json_object_set_new(file, "table_size", json_size(total_table_size(pack)));
     json_object_set_new(file, "class_count", json_integer(pack->class_count));
-    json_object_set_new(file, "bake", json_string(pack->info));
+    json_object_set_new(file, "bake", json_text(pack->info));
     return file;
 }
 
 static json_t *describe_mesh(const limn_mesh *mesh) {
     json_t *const object = json_object();
     const uint64_t size = patch_size(mesh);
-    json_object_set_new(object, "name", json_string(mesh->name));
+    json_object_set_new(object, "name", json_text(mesh->name));
     json_object_set_new(object, "faces", json_integer(mesh->patch_count));
     json_object_set_new(object, "control_points", json_integer(mesh->control_count));
     json_object_set_new(object, "patches", json_integer(mesh->patch_count));
@@ -90,7 +96,7 @@ static json_t *describe_mesh(const limn_mesh *mesh) {
 }
 
 static json_t *describe_class(const limn_pack *pack, uint32_t class_index) {
-    const limn_file_class *const class = &classes_of(pack)[class_index];
+    const limn_file_class *const class = &pack->classes[class_index];
     const limn_domain *const domain = limn_domain_get((limn_domain_kind) class->domain);
     json_t *const object = json_object(), *const valences = json_array(), *corners = json_array();
     for (uint32_t corner = 0; corner < domain->corner_count; corner++) {
@@ -106,7 +112,7 @@ static json_t *describe_class(const limn_pack *pack, uint32_t class_index) {
     return object;
 }
 
-static int print_json(const limn_pack *pack) {
+static void print_json(const limn_pack *pack) {
     json_t *const root = json_object(), *const meshes = json_array(), *const classes = json_array();
     for (uint32_t m = 0; m < pack->mesh_count; m++) {
         const limn_mesh mesh = limn_pack_mesh(pack, m);
@@ -117,14 +123,13 @@ static int print_json(const limn_pack *pack) {
     json_object_set_new(root, "file", describe_file(pack));
     json_object_set_new(root, "meshes", meshes);
     json_object_set_new(root, "classes", classes);
-    const int status = json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
+    json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
     json_decref(root);
     printf("\n");
-    return status == 0 && fflush(stdout) == 0 ? LIMNI_EXIT_OK : limni_failure("cannot write");
 }
 
 static void print_class(const limn_pack *pack, uint32_t class_index) {
-    const limn_file_class *const class = &classes_of(pack)[class_index];
+    const limn_file_class *const class = &pack->classes[class_index];
     char valences[64] = "";
     for (uint32_t corner = 0; corner < 4 && class->valences[corner]; corner++) {
         const size_t length = strlen(valences);
@@ -172,12 +177,11 @@ int limni_command_info(int argc, char **argv) {
 
     limni_pack_file file;
     if (!limni_pack_file_open(&file, argv[optind])) return LIMNI_EXIT_FAILED;
-    int status = LIMNI_EXIT_OK;
     if (json) {
-        status = print_json(&file.pack);
+        print_json(&file.pack);
     } else {
         print_text(argv[optind], &file.pack);
     }
     limni_pack_file_close(&file);
-    return status;
+    return LIMNI_EXIT_OK;
 }

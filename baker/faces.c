@@ -24,7 +24,8 @@ static void fail_at(limni_context *context, const limni_source *source, uint32_t
         limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s:%u: %s", file_of(source),
                    source->face_lines[face], text);
     } else {
-        limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: face %u: %s", file_of(source), face, text);
+        limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: face %u: %s", file_of(source),
+                   source->face_numbers[face], text);
     }
 }
 
@@ -57,7 +58,7 @@ limn_bake_status limni_weld(limni_context *context, limni_source *source) {
             at = (at + 1) & (size - 1);
         if (table[at] == LIMNI_NONE) {
             table[at] = kept;
-            memcpy(source->positions[kept], position, sizeof *source->positions);
+            memmove(source->positions[kept], position, sizeof *source->positions);
             if (source->position_lines) source->position_lines[kept] = source->position_lines[p];
             kept++;
         }
@@ -141,15 +142,17 @@ static uint32_t add_face(face_set *set, const limni_source *source, uint32_t fac
 
 typedef struct dropped {
     uint32_t degenerate, repeated;
+    uint32_t mended; ///< kept without corners that repeat the one before
 } dropped;
 
 /// Appends a face to those that are kept: in place, since it can only move towards the front.
-static void keep_face(limni_source *source, const uint32_t *corners, uint32_t size, uint32_t line,
+static void keep_face(limni_source *source, const uint32_t *corners, uint32_t size, uint32_t face,
                       uint32_t kept) {
     const uint32_t offset = source->face_offsets[kept];
     memmove(source->face_corners + offset, corners, size * sizeof *corners);
     source->face_offsets[kept + 1] = offset + size;
-    if (source->face_lines) source->face_lines[kept] = line;
+    if (source->face_lines) source->face_lines[kept] = source->face_lines[face];
+    source->face_numbers[kept] = face;
 }
 
 /// The face at *kept stays, and *kept moves on, unless there is something wrong with it.
@@ -183,7 +186,8 @@ limn_bake_status limni_check_faces(limni_context *context, limni_source *source)
     const uint32_t face_count = source->face_count;
     face_set set = {.size = limni_hash_size(face_count)};
     set.table = limni_allocate(context, set.size, sizeof *set.table);
-    if (!set.table) return LIMN_BAKE_MEMORY;
+    source->face_numbers = limni_allocate(context, face_count, sizeof *source->face_numbers);
+    if (!set.table || !source->face_numbers) return LIMN_BAKE_MEMORY;
     memset(set.table, 0xff, set.size * sizeof *set.table);
 
     dropped counts = {0};
@@ -191,15 +195,15 @@ limn_bake_status limni_check_faces(limni_context *context, limni_source *source)
     for (uint32_t face = 0; face < face_count; face++) {
         const uint32_t end = source->face_offsets[face + 1];
         uint32_t *const corners = source->face_corners + offset;
-        uint32_t size = end - offset;
+        const uint32_t full_size = end - offset;
+        const uint32_t size = drop ? remove_repeats(corners, full_size) : full_size;
         offset = end;
-        if (drop) size = remove_repeats(corners, size);
         if (size < 3) {
             counts.degenerate++;
             continue;
         }
-        const uint32_t line = source->face_lines ? source->face_lines[face] : 0;
-        keep_face(source, corners, size, line, kept);
+        counts.mended += size < full_size;
+        keep_face(source, corners, size, face, kept);
         LIMNI_TRY(check_face(context, source, &set, &counts, &kept));
     }
     source->face_count = kept;
@@ -207,6 +211,9 @@ limn_bake_status limni_check_faces(limni_context *context, limni_source *source)
     if (counts.degenerate || counts.repeated)
         limni_note(context, "%s: repaired: %u degenerate and %u repeated faces dropped",
                    file_of(source), counts.degenerate, counts.repeated);
+    if (counts.mended)
+        limni_note(context, "%s: repaired: %u faces lost corners that repeat the one before",
+                   file_of(source), counts.mended);
     if (kept == 0)
         return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: the mesh has no faces",
                           file_of(source));

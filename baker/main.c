@@ -36,6 +36,12 @@ static bool is_either(const char *text, const char *a, const char *b) {
     return strcmp(text, a) == 0 || strcmp(text, b) == 0;
 }
 
+/// A full disk under standard output is a failure, too.
+static int finish(int status) {
+    if (fflush(stdout) == 0 && !ferror(stdout)) return status;
+    return limni_failure("cannot write to standard output");
+}
+
 int main(int argc, char **argv) {
     if (argc < 2) {
         print_help(stderr);
@@ -51,7 +57,8 @@ int main(int argc, char **argv) {
         return LIMNI_EXIT_OK;
     }
     for (int c = 0; c < COMMAND_COUNT; c++) {
-        if (strcmp(argv[1], commands[c].name) == 0) return commands[c].run(argc - 1, argv + 1);
+        if (strcmp(argv[1], commands[c].name) == 0)
+            return finish(commands[c].run(argc - 1, argv + 1));
     }
     fprintf(stderr, "limn: there is no command '%s'; see limn --help\n", argv[1]);
     return LIMNI_EXIT_USAGE;

@@ -8,9 +8,13 @@
 
 /// What is known of each face after the first pass.
 typedef struct assignment {
-    uint32_t *classes;   ///< [face_count]
+    uint32_t *keys;      ///< [face_count] indices of class keys
     uint32_t *rotations; ///< [face_count]
 } assignment;
+
+static uint32_t class_of(const limni_classes *classes, const assignment *assigned, uint32_t face) {
+    return classes->keys[assigned->keys[face]].class_index;
+}
 
 static uint32_t slot_size_of(const limni_class *class) {
     return class->control_count <= LIMN_FORMAT_NARROW_SLOTS ? 1 : 2;
@@ -24,7 +28,7 @@ static limn_bake_status assign_classes(limni_context *context, const limni_mesh 
         if (face % step == 0) limni_progress(context, "classify", face, mesh->face_count);
         const limni_local_base *const base = limni_classify(context, classifier, face);
         if (!base) return LIMN_BAKE_BAD_INPUT;
-        LIMNI_TRY(limni_classes_find(context, classes, rules, base, &assigned->classes[face]));
+        LIMNI_TRY(limni_classes_find(context, classes, rules, base, &assigned->keys[face]));
         assigned->rotations[face] = base->rotation;
     }
     limni_progress(context, "classify", mesh->face_count, mesh->face_count);
@@ -63,7 +67,7 @@ static limn_bake_status make_runs(limni_context *context, const limni_mesh *mesh
     uint32_t *const counts = limni_allocate_zeroed(context, classes->count, sizeof *counts);
     if (!counts) return LIMN_BAKE_MEMORY;
     for (uint32_t face = 0; face < mesh->face_count; face++)
-        counts[assigned->classes[face]]++;
+        counts[class_of(classes, assigned, face)]++;
     for (uint32_t c = 0; c < classes->count; c++)
         patches->record.run_count += counts[c] != 0;
     patches->runs =
@@ -84,7 +88,8 @@ static limn_bake_status order_faces(limni_context *context, const limni_mesh *me
     for (uint32_t r = 0; r < patches->record.run_count; r++)
         next[patches->runs[r].class_index] = patches->runs[r].first_patch;
     for (uint32_t face = 0; face < mesh->face_count; face++)
-        patches->faces[next[assigned->classes[face]]++] = face << 2 | assigned->rotations[face];
+        patches->faces[next[class_of(classes, assigned, face)]++] =
+            face << 2 | assigned->rotations[face];
     limni_release(context, next);
     return LIMN_BAKE_OK;
 }
@@ -113,11 +118,13 @@ static void sort_pairs(uint64_t *pairs, uint32_t count) {
 
 /// Stores a patch's control points in ascending order, each with its slot: what makes two patches
 /// add the terms of a shared vertex in the same order.
-static void store_controls(const limni_local_base *base, uint64_t *pairs, uint32_t slot_size,
-                           uint32_t *indices, uint8_t *slots) {
-    const uint32_t count = base->neighbourhood.control_count;
-    for (uint32_t slot = 0; slot < count; slot++)
-        pairs[slot] = (uint64_t)base->controls[slot] << 32 | slot;
+static void store_controls(const limni_local_base *base, const limni_class_key *key,
+                           uint64_t *pairs, uint32_t slot_size, uint32_t *indices, uint8_t *slots) {
+    uint32_t count = 0;
+    for (uint32_t slot = 0; slot < base->neighbourhood.control_count; slot++) {
+        if (key->slots[slot] == LIMNI_SLOT_UNUSED) continue;
+        pairs[count++] = (uint64_t)base->controls[slot] << 32 | key->slots[slot];
+    }
     sort_pairs(pairs, count);
     for (uint32_t k = 0; k < count; k++) {
         indices[k] = (uint32_t)(pairs[k] >> 32);
@@ -128,7 +135,8 @@ static void store_controls(const limni_local_base *base, uint64_t *pairs, uint32
 }
 
 static limn_bake_status list_controls(limni_context *context, const limni_classes *classes,
-                                      limni_classifier *classifier, limni_patches *patches) {
+                                      const assignment *assigned, limni_classifier *classifier,
+                                      limni_patches *patches) {
     patches->indices = limni_allocate(context, patches->record.index_count, sizeof(uint32_t));
     patches->slots = limni_allocate_zeroed(context, patches->slots_size, 1);
     uint64_t *const pairs = limni_allocate(context, LIMNI_LOCAL_BASE_MAX, sizeof *pairs);
@@ -142,7 +150,9 @@ static limn_bake_status list_controls(limni_context *context, const limni_classe
             const limni_local_base *const base =
                 limni_local_base_at(classifier, packed >> 2, packed & 3);
             const uint64_t skipped = (uint64_t)p * count;
-            store_controls(base, pairs, slot_size, patches->indices + run->first_index + skipped,
+            const limni_class_key *const key = &classes->keys[assigned->keys[packed >> 2]];
+            store_controls(base, key, pairs, slot_size,
+                           patches->indices + run->first_index + skipped,
                            patches->slots + run->first_slot + skipped * slot_size);
         }
     }
@@ -154,11 +164,13 @@ static limn_bake_status list_controls(limni_context *context, const limni_classe
 
 /// Adds up what one side says about an edge: which control points move its rows, and how. The sum
 /// does not depend on the order of the slots.
-static uint64_t sum_edge(const limni_class *class, const limni_local_base *base, uint32_t edge,
-                         bool along) {
+static uint64_t sum_edge(const limni_classes *classes, const limni_class_key *key,
+                         const limni_local_base *base, uint32_t edge, bool along) {
+    const limni_class *const class = &classes->items[key->class_index];
     uint64_t sum = 0;
-    for (uint32_t slot = 0; slot < class->control_count; slot++) {
-        const limni_edge_prints *const prints = &class->prints[slot];
+    for (uint32_t slot = 0; slot < base->neighbourhood.control_count; slot++) {
+        if (key->slots[slot] == LIMNI_SLOT_UNUSED) continue;
+        const limni_edge_prints *const prints = &class->prints[key->slots[slot]];
         const uint64_t print = along ? prints->along[edge] : prints->against[edge];
         if (print) sum += limni_hash_mix(print, base->controls[slot]);
     }
@@ -178,7 +190,7 @@ static limn_bake_status check_agreement(limni_context *context, const limni_mesh
         const limni_local_base *const base =
             h % 3 == 0 ? limni_local_base_at(classifier, face, rotation) : &classifier->bases[0];
         const bool along = mesh->pairs[h] == LIMNI_NONE || h < mesh->pairs[h];
-        sums[h] = sum_edge(&classes->items[assigned->classes[face]], base, edge, along);
+        sums[h] = sum_edge(classes, &classes->keys[assigned->keys[face]], base, edge, along);
     }
     limn_bake_status status = LIMN_BAKE_OK;
     for (uint32_t h = 0; h < 3 * mesh->face_count && status == LIMN_BAKE_OK; h++) {
@@ -215,10 +227,10 @@ limn_bake_status limni_patches_build(limni_context *context, const limni_mesh *m
                                      const limni_rules *rules, limni_classes *classes,
                                      limni_patches *patches) {
     const assignment assigned = {
-        .classes = limni_allocate(context, mesh->face_count, sizeof(uint32_t)),
+        .keys = limni_allocate(context, mesh->face_count, sizeof(uint32_t)),
         .rotations = limni_allocate(context, mesh->face_count, sizeof(uint32_t)),
     };
-    if (!assigned.classes || !assigned.rotations) return LIMN_BAKE_MEMORY;
+    if (!assigned.keys || !assigned.rotations) return LIMN_BAKE_MEMORY;
     *patches = (limni_patches){
         .name = mesh->name,
         .controls = mesh->controls,
@@ -232,9 +244,9 @@ limn_bake_status limni_patches_build(limni_context *context, const limni_mesh *m
     LIMNI_TRY(check_agreement(context, mesh, classes, &assigned, &classifier));
     LIMNI_TRY(make_runs(context, mesh, classes, &assigned, patches));
     LIMNI_TRY(order_faces(context, mesh, classes, &assigned, patches));
-    LIMNI_TRY(list_controls(context, classes, &classifier, patches));
+    LIMNI_TRY(list_controls(context, classes, &assigned, &classifier, patches));
     limni_classifier_end(context, &classifier);
-    limni_release(context, assigned.classes);
+    limni_release(context, assigned.keys);
     limni_release(context, assigned.rotations);
     return LIMN_BAKE_OK;
 }

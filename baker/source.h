@@ -16,6 +16,7 @@ typedef struct limni_source {
     uint32_t
         *face_offsets; ///< [face_count + 1] into face_corners; every face has at least 3 corners
     uint32_t *face_corners; ///< position indices from 0, each < position_count
+    uint32_t *face_numbers; ///< [face_count] as read, from 0, set when faces are checked
     uint32_t *face_lines;   ///< [face_count], from 1; NULL for a mesh from memory
 } limni_source;
 

@@ -17,7 +17,8 @@ static const char *place(limni_place text, const char *what, uint32_t number, co
 
 const char *limni_face_place(const limni_mesh *mesh, uint32_t face, limni_place text) {
     const uint32_t polygon = mesh->polygons[face];
-    return place(text, "face", polygon + mesh->index_base, mesh->face_lines, polygon);
+    return place(text, "face", mesh->face_numbers[polygon] + mesh->index_base, mesh->face_lines,
+                 polygon);
 }
 
 const char *limni_control_place(const limni_mesh *mesh, uint32_t control, limni_place text) {
@@ -325,6 +326,9 @@ limn_bake_status limni_connect(limni_context *context, limni_mesh *mesh) {
 }
 
 limn_bake_status limni_mesh_build(limni_context *context, limni_source *source, limni_mesh *mesh) {
+    if (source->face_offsets[source->face_count] > LIMNI_CORNERS_MAX)
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: the faces have more than %u corners",
+                          source->path ? source->path : source->name, LIMNI_CORNERS_MAX);
     if (context->desc.repair & LIMN_REPAIR_WELD) LIMNI_TRY(limni_weld(context, source));
     LIMNI_TRY(limni_check_faces(context, source));
     LIMNI_TRY(limni_triangulate(context, source, mesh));

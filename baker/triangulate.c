@@ -194,14 +194,12 @@ limn_bake_status limni_triangulate(limni_context *context, const limni_source *s
                                    limni_mesh *mesh) {
     const uint64_t corners = source->face_offsets[source->face_count];
     const uint64_t triangles = corners - 2 * (uint64_t)source->face_count;
-    if (triangles >= LIMNI_FACE_MAX)
-        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: more than %u triangles",
-                          source->path ? source->path : source->name, LIMNI_FACE_MAX);
     *mesh = (limni_mesh){
         .name = source->name,
         .path = source->path,
         .control_lines = source->position_lines,
         .face_lines = source->face_lines,
+        .face_numbers = source->face_numbers,
         .index_base = source->index_base,
         .control_count = source->position_count,
         .controls = source->positions,

@@ -91,7 +91,8 @@ limn_bake_status limn_baker_add_file(limn_baker *baker, const char *path);
 /// Adds a mesh from memory, copying it. Errors name faces and vertices by index from 0.
 limn_bake_status limn_baker_add_mesh(limn_baker *baker, const limn_bake_mesh *mesh);
 
-/// Bakes all meshes into one blob that belongs to the baker, 64-byte aligned.
+/// Bakes all meshes into one blob that belongs to the baker, 64-byte aligned. It is valid until a mesh
+/// is added or the baker destroyed.
 limn_bake_status limn_baker_finish(limn_baker *baker, const void **blob, size_t *blob_size);
 
 /// The same, into a file: written aside and renamed, so that `path` holds either the old file or
