@@ -1,0 +1,430 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Every command of limn, right and wrong: exit statuses, messages, and what is left on the disk.
+#
+# usage: cli_test.sh LIMN ASSETS_FOLDER WORK_FOLDER
+set -u
+export LC_ALL=C # the messages of the system too
+
+if [ $# -ne 3 ]; then
+    echo "usage: $0 LIMN ASSETS_FOLDER WORK_FOLDER" >&2
+    exit 2
+fi
+case $1 in */*) limn=$(cd "$(dirname "$1")" && pwd)/$(basename "$1") ;; *) limn=$1 ;; esac
+assets=$(cd "$2" && pwd) || exit 1
+failures=0
+
+# Never touch what somebody else keeps in the folder: everything happens in one of our own.
+mkdir -p "$3" || exit 1
+folder=$(mktemp -d "$3/cli_test.XXXXXX") || exit 1
+cd "$folder" || exit 1
+folder=$(pwd)
+
+fail() {
+    echo "FAILED: $*" >&2
+    failures=$((failures + 1))
+}
+
+# run STATUS ARGUMENT...: limn with that exit status; its words go to stdout.txt and stderr.txt.
+run() {
+    status=$1
+    shift
+    "$limn" "$@" >"$folder/stdout.txt" 2>"$folder/stderr.txt"
+    actual=$?
+    [ $actual -eq "$status" ] || {
+        fail "limn $*: exit status $actual instead of $status"
+        sed 's/^/    /' "$folder/stderr.txt" >&2
+    }
+}
+
+# says STREAM PATTERN: a line of that stream of the last run holds the pattern.
+says() {
+    grep -q -e "$2" "$folder/$1.txt" || {
+        fail "limn $last: nothing about '$2' on $1"
+        sed 's/^/    /' "$folder/$1.txt" >&2
+    }
+}
+
+# works ARGUMENT...: status 0 and nothing on stderr.
+works() {
+    last=$*
+    run 0 "$@"
+    [ ! -s "$folder/stderr.txt" ] || fail "limn $*: words on stderr: $(cat "$folder/stderr.txt")"
+}
+
+# notes PATTERN ARGUMENT...: status 0 and a note.
+notes() {
+    pattern=$1
+    shift
+    last=$*
+    run 0 "$@"
+    says stderr "^note: .*$pattern"
+}
+
+# refuses STATUS PATTERN ARGUMENT...: that status, a message with the pattern, nothing on stdout, and
+# no file that was not there before.
+refuses() {
+    status=$1
+    pattern=$2
+    shift 2
+    last=$*
+    ls -A "$folder" "$folder/kept" >"$folder/before.txt"
+    run "$status" "$@"
+    says stderr "$pattern"
+    [ ! -s "$folder/stdout.txt" ] || fail "limn $*: words on stdout"
+    ls -A "$folder" "$folder/kept" >"$folder/after.txt"
+    cmp -s "$folder/before.txt" "$folder/after.txt" || {
+        fail "limn $*: left files behind"
+        diff "$folder/before.txt" "$folder/after.txt" >&2
+    }
+}
+
+# json KEY: the value of the first such key of the last run.
+json() {
+    sed -n "s/^ *\"$1\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}\$/\1/p" "$folder/stdout.txt" | head -n 1
+}
+
+# expect WHAT ACTUAL EXPECTED
+expect() {
+    [ "$2" = "$3" ] || fail "$1: '$2' instead of '$3'"
+}
+
+size_of() {
+    wc -c <"$1" | tr -d ' '
+}
+
+# Numbers of an OBJ: vertices, faces, and directed edges that have no single opposite.
+obj_counts() {
+    awk '$1 == "v" { vertices++ }
+         $1 == "f" { faces++; for (c = 2; c <= 4; c++) used[$c " " $(c == 4 ? 2 : c + 1)]++ }
+         END {
+             for (edge in used) {
+                 split(edge, end, " ")
+                 if (used[edge] != 1 || used[end[2] " " end[1]] != 1) open++
+             }
+             print vertices + 0, faces + 0, open + 0
+         }' "$1"
+}
+
+mkdir kept
+touch stdout.txt stderr.txt before.txt after.txt
+torus=$assets/torus32.obj
+sail=$assets/sail.obj
+cube=$assets/cube.off
+
+# ---- Help and version
+
+works --help
+for command in bake info export verify; do says stdout "^  $command "; done
+works -h
+works --version
+says stdout '^limn [0-9]*\.[0-9]*\.[0-9]*$'
+for command in bake info export verify; do
+    "$limn" $command --help >stdout.txt 2>stderr.txt
+    expect "$command --help" $? 0
+    last="$command --help"
+    says stdout "^usage: limn $command "
+    says stdout --help
+    "$limn" $command -h | cmp -s - stdout.txt || fail "$command -h differs from --help"
+done
+refuses 2 '^usage: '
+refuses 2 "no command 'frob'" frob
+refuses 2 "no command '--frob'" --frob
+refuses 2 "no command ''" ''
+
+# ---- bake
+
+works bake "$torus" -o torus.limn
+says stdout '^torus.limn: 1 mesh, 32 faces, 1 classes, '
+works bake -q "$torus" -o quiet.limn
+expect "bake -q" "$(cat stdout.txt)" ""
+cmp torus.limn quiet.limn || fail "bake: not the same bytes twice"
+works bake -o torus.limn -- "$torus"
+cmp torus.limn quiet.limn || fail "bake: options before inputs"
+works bake "$torus" --output=torus.limn --weights=loop --boundary edge-only
+cmp torus.limn quiet.limn || fail "bake: the defaults are not what they are said to be"
+works bake "$sail" -o sail.limn
+works bake "$sail" -o warren.limn --weights warren
+works bake "$sail" -o corner.limn --boundary edge-and-corner
+cmp -s sail.limn warren.limn && fail "--weights does nothing"
+cmp -s sail.limn corner.limn && fail "--boundary does nothing"
+notes 'cube.off: triangulated 3 quads and 3 larger polygons: 7 faces became 16' bake "$cube" -o cube.limn
+works bake -q "$cube" -o cube.limn
+works bake -q "$torus" "$sail" "$cube" "$torus" -o several.limn
+
+# Files take the usual permissions, replace what was there, and go where links lead.
+(umask 027 && "$limn" bake -q "$torus" -o mode.limn)
+expect "permissions" "$(ls -l mode.limn | cut -c1-10)" "-rw-r-----"
+mkdir far
+echo old >far/target.limn
+ln -s far/target.limn link.limn
+works bake -q "$torus" -o link.limn
+[ -L link.limn ] || fail "the link was replaced"
+cmp far/target.limn torus.limn || fail "the target of the link was not written"
+ln -s far/new.limn dangling.limn
+works bake -q "$torus" -o dangling.limn
+[ -L dangling.limn ] || fail "the link to nowhere was replaced"
+cmp far/new.limn torus.limn || fail "the target of the link to nowhere was not written"
+expect "far" "$(ls -A far | tr '\n' ' ')" "new.limn target.limn "
+works bake -q "$torus" -o /dev/null
+[ -c /dev/null ] || fail "/dev/null was replaced"
+
+# ---- Meshes that cannot be baked
+
+# bad NAME PATTERN: the lines of stdin cannot be baked, and an older output stays as it was.
+bad() {
+    cat >"$1"
+    refuses 1 "^limn: $1:.*$2" bake "$1" -o new.limn
+    cp torus.limn kept/old.limn
+    refuses 1 "$2" bake "$torus" "$1" -o kept/old.limn
+    cmp -s kept/old.limn torus.limn || fail "$1: the older file was damaged"
+}
+four="v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+printf "${four}v 1 1 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n" | bad edge.obj \
+    'non-manifold edge from vertex 1 (line 1) to vertex 2 (line 2): 3 faces share it, among them face 1 (line 6) and face 3 (line 8)'
+printf "${four}v 1 1 1\nf 1 2 3\nf 1 4 5\n" | bad vertex.obj \
+    'non-manifold vertex 1 (line 1): face 1 (line 6) and face 2 (line 7)'
+printf "${four}f 1 2 3\nf 1 2 4\n" | bad winding.obj \
+    'inconsistent winding: face 1 (line 5) and face 2 (line 6) both run from vertex 1 (line 1) to vertex 2 (line 2)'
+printf "${four}f 1 2 3\nf 1 3 3\n" | bad degenerate.obj '6: degenerate face'
+printf "${four}f 1 2 3\nf 3 1 2\n" | bad repeated.obj '6: repeated face'
+printf "${four}f 1 2 5\n" | bad range.obj '5: .*5'
+printf "${four}f 1 2 0\n" | bad zero.obj '5: '
+printf "v 0 0 nan\nf 1 1 1\n" | bad nan.obj '1: '
+printf "v 0 0 1e99\nf 1 1 1\n" | bad huge.obj '1: '
+printf "" | bad empty.obj ' '
+printf "$four" | bad faceless.obj ' '
+printf "OFF\n3 1 0\n0 0 0\n1 0 0\n" | bad truncated.off '2: the file ends too early'
+printf "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n" | bad range.off '6: '
+printf "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n" | bad winding.off \
+    'face 0 (line 7) and face 1 (line 8) both run from vertex 0 (line 3) to vertex 1 (line 4)'
+
+refuses 1 'missing.obj: cannot be read: No such file' bake missing.obj -o new.limn
+refuses 1 'folder' bake far -o new.limn
+refuses 1 'torus.limn: unknown kind' bake torus.limn -o new.limn
+refuses 1 'no_folder/new.limn: cannot .*: No such file' bake "$torus" -o no_folder/new.limn
+refuses 1 'far: cannot write: Is a directory' bake "$torus" -o far
+refuses 1 'far/: cannot write: Is a directory' bake "$torus" -o far/
+refuses 1 'cannot' bake "$torus" -o ''
+refuses 1 'torus.limn/new.limn: cannot .*: Not a directory' bake "$torus" -o torus.limn/new.limn
+if [ -c /dev/full ]; then refuses 1 '/dev/full: cannot write: No space' bake -q "$torus" -o /dev/full; fi
+
+refuses 2 'no input' bake
+refuses 2 'no input' bake -o new.limn
+refuses 2 'no output' bake "$torus"
+refuses 2 'see limn bake --help' bake "$torus" -o
+refuses 2 'see limn bake --help' bake "$torus" -o new.limn --frob
+refuses 2 'see limn bake --help' bake "$torus" -o new.limn --quiet=3
+refuses 2 "no weights 'Loop'" bake "$torus" -o new.limn --weights Loop
+refuses 2 "no boundary rule ''" bake "$torus" -o new.limn --boundary ''
+for steps in '' , weld, ,weld welt 'weld drop' weld,,drop WELD; do
+    refuses 2 'cannot repair' bake "$torus" -o new.limn "--repair=$steps"
+done
+cp "$torus" both.obj
+refuses 2 'both.obj is input and output' bake both.obj -o both.obj
+ln both.obj other_name.obj
+refuses 2 'both.obj is input and output' bake both.obj -o ./other_name.obj
+cmp both.obj "$torus" || fail "the input was overwritten"
+
+# ---- Repair
+
+notes 'edge.obj: repaired: ' bake edge.obj -o repaired.limn --repair
+works info repaired.limn
+notes 'repaired: 1 control points added' bake vertex.obj -o repaired.limn --repair=split
+notes 'repaired: ' bake winding.obj -o repaired.limn --repair=split
+notes 'repaired: 1 degenerate and 0 repeated' bake degenerate.obj -o repaired.limn --repair=drop
+notes 'repaired: 0 degenerate and 1 repeated' bake repeated.obj -o repaired.limn --repair=weld,drop
+printf "${four}v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 3 2\nf 5 6 4\nf 2 7 4\nf 3 1 4\n" >loose.obj
+notes 'loose.obj: repaired: 3 control points welded' bake loose.obj -o loose.limn --repair=weld
+works info loose.limn --json
+expect "welded control points" "$(json control_points)" 4
+works bake -q loose.obj -o loose.limn --repair=all
+refuses 1 'edge.obj: non-manifold edge' bake edge.obj -o new.limn --repair=weld,drop
+refuses 1 'degenerate.obj:6: degenerate' bake degenerate.obj -o new.limn --repair=split
+refuses 1 'range.obj:5: ' bake range.obj -o new.limn --repair
+printf "${four}f 1 2 2\n" >hopeless.obj
+refuses 1 'hopeless.obj: the mesh has no faces' bake -q hopeless.obj -o new.limn --repair
+
+# ---- info
+
+works info several.limn
+for name in torus32 sail cube; do says stdout "^$name "; done
+says stdout 'scheme=loop weights=loop boundary=edge-only'
+works info --json several.limn
+for key in file version size table_size class_count meshes name faces control_points patches patch_size \
+    bytes_per_face classes use_count; do
+    says stdout "^ *\"$key\": "
+done
+expect "version" "$(json version)" 1
+expect "size" "$(json size)" "$(size_of several.limn)"
+expect "meshes" "$(grep -c '"bytes_per_face"' stdout.txt)" 4
+expect "names" "$(sed -n 's/^ *"name": "\(.*\)",*$/\1/p' stdout.txt | tr '\n' ' ')" "torus32 sail cube torus32 "
+expect "classes" "$(grep -c '"use_count"' stdout.txt)" "$(json class_count)"
+expect "uses" "$(sed -n 's/^ *"use_count": \([0-9]*\),*$/\1/p' stdout.txt | awk '{ sum += $1 } END { print sum }')" \
+    $((32 + 88 + 16 + 32))
+expect "brackets" "$(tr -cd '{[' <stdout.txt | wc -c)" "$(tr -cd '}]' <stdout.txt | wc -c)"
+several=$(json class_count)
+works bake -q "$torus" "$sail" "$cube" -o three.limn
+works info three.limn --json
+expect "shared classes" "$(json class_count)" "$several"
+works info torus.limn --json
+expect "faces" "$(json faces)" 32
+expect "patches" "$(json patches)" 32
+expect "control points" "$(json control_points)" 16
+expect "class count" "$(json class_count)" 1
+
+# A name that is not UTF-8 is a name nevertheless.
+latin=$(printf 'caf\351')
+cp "$torus" "$latin.obj"
+works bake -q "$latin.obj" -o latin.limn
+works info latin.limn --json
+says stdout '^ *"name": "caf'
+
+# damaged COMMAND...: each is tried with files that are not whole; FILE stands for them.
+damaged() {
+    size=$(size_of sail.limn)
+    : >empty.limn
+    head -c 63 sail.limn >header.limn
+    head -c 1000 sail.limn >beginning.limn
+    head -c $((size - 1)) sail.limn >short.limn
+    { cat sail.limn && printf x; } >long.limn
+    { head -c $((size - 5)) sail.limn && printf 'x' && tail -c 4 sail.limn; } >changed.limn
+    refuses 1 'missing.limn: No such file' "$1" missing.limn "$2" "$3" "$4" "$5"
+    refuses 1 'empty.limn: .*empty' "$1" empty.limn "$2" "$3" "$4" "$5"
+    for name in header beginning short; do
+        refuses 1 "$name.limn: the blob is shorter" "$1" $name.limn "$2" "$3" "$4" "$5"
+    done
+    refuses 1 'long.limn: the blob is longer' "$1" long.limn "$2" "$3" "$4" "$5"
+    refuses 1 'changed.limn: the file is damaged' "$1" changed.limn "$2" "$3" "$4" "$5"
+    refuses 1 'torus32.obj: the blob is not a .limn file' "$1" "$torus" "$2" "$3" "$4" "$5"
+    refuses 1 'far: ' "$1" far "$2" "$3" "$4" "$5"
+}
+refuses 1 'short.limn: No such file' info short.limn
+damaged export --level 1 -o new.obj
+damaged export --level=1 --weld -o new.ply
+for name in header beginning short long changed; do
+    refuses 1 "$name.limn: the " info $name.limn
+    refuses 1 "$name.limn: the " info $name.limn --json
+done
+refuses 2 'one .limn file' info
+refuses 2 'one .limn file' info torus.limn sail.limn
+refuses 2 'see limn info --help' info torus.limn --frob
+if [ -c /dev/full ]; then
+    "$limn" info torus.limn --json >/dev/full 2>stderr.txt
+    expect "info --json to a full disk" $? 1
+    "$limn" info torus.limn >/dev/full 2>stderr.txt
+    expect "info to a full disk" $? 1
+fi
+
+# ---- export: V + E, then each level has four times the faces of the one before
+
+for level in 0 1 2 3 4; do
+    steps=$((1 << level))
+    works export torus.limn --level $level --weld -o welded.obj
+    inner=$(((steps - 1) * (steps - 2) / 2))
+    expect "welded, level $level" "$(obj_counts welded.obj)" \
+        "$((16 + 48 * (steps - 1) + 32 * inner)) $((32 * steps * steps)) 0"
+    works export torus.limn -l $level -o patches.obj
+    rows=$(((steps + 1) * (steps + 2) / 2))
+    expect "patches, level $level" "$(obj_counts patches.obj | cut -d' ' -f1,2)" \
+        "$((32 * rows)) $((32 * steps * steps))"
+    works export torus.limn --level $level --weld -o welded.ply
+    vertices=$((16 + 48 * (steps - 1) + 32 * inner))
+    header=$(sed '/^end_header/q' welded.ply | wc -c | tr -d ' ')
+    expect "ply, level $level" "$(size_of welded.ply)" $((header + 12 * vertices + 13 * 32 * steps * steps))
+done
+sed '/^end_header/q' welded.ply >stdout.txt
+last="export welded.ply"
+says stdout '^ply$'
+says stdout '^format binary_little_endian 1.0$'
+says stdout "^element vertex $((16 + 15 * 48 + 105 * 32))\$"
+says stdout "^element face $((256 * 32))\$"
+works export several.limn --level 2 --weld -o several.obj
+expect "objects" "$(grep '^o ' several.obj | tr '\n' ' ')" "o torus32 o sail o cube o torus32 "
+expect "faces of several" "$(obj_counts several.obj | cut -d' ' -f2)" $(((32 + 88 + 16 + 32) * 16))
+
+# What was exported can be baked again: it is a manifold.
+works bake -q welded.obj -o again.limn
+works export sail.limn --level 2 --weld -o sail.obj
+works bake -q sail.obj -o again.limn
+works export torus.limn --level 0 -o far/out.ply
+
+refuses 2 'no level' export torus.limn -o new.obj
+refuses 2 'no output' export torus.limn --level 2
+refuses 2 'one .limn file' export --level 2 -o new.obj
+refuses 2 'one .limn file' export torus.limn sail.limn --level 2 -o new.obj
+for level in 5 -1 1x x '' 1.0 +1 ' 1' 4294967296 18446744073709551617; do
+    refuses 2 'not a level' export torus.limn "--level=$level" -o new.obj
+done
+for name in new new.stl .obj new.obj.gz new.OBJ ''; do
+    refuses 2 'must end in .obj or .ply' export torus.limn --level 1 -o "$name"
+done
+refuses 2 'see limn export --help' export torus.limn --level 1 -o new.obj --frob
+refuses 1 'no_folder/new.obj: cannot ' export torus.limn --level 1 -o no_folder/new.obj
+mkdir folder.obj
+refuses 1 'folder.obj: cannot write: Is a directory' export torus.limn --level 1 -o folder.obj
+if [ -c /dev/full ]; then
+    ln -s /dev/full full.ply
+    refuses 1 'full.ply: cannot write: No space' export torus.limn --level 4 -o full.ply
+fi
+echo old >kept/old.obj
+refuses 1 'short.limn: ' export short.limn --level 1 -o kept/old.obj
+expect "the older file" "$(cat kept/old.obj)" old
+
+# ---- verify
+
+# verified ARGUMENT...: passes, and the numbers are those of float arithmetic.
+verified() {
+    works verify "$@"
+    largest=$(sed -n 's/.*largest \([^ ]*\) .*/\1/p' stdout.txt)
+    mean=$(sed -n 's/.*mean \(.*\)$/\1/p' stdout.txt)
+    awk -v largest="$largest" -v mean="$mean" \
+        'BEGIN { exit !(mean > 0 && mean <= largest && largest > 1e-9 && largest <= 3e-7) }' ||
+        fail "verify $*: largest '$largest', mean '$mean'"
+}
+
+if "$limn" verify torus.limn --against "$torus" 2>&1 | grep -q 'built without OpenSubdiv'; then
+    echo "built without OpenSubdiv: verify is not tested"
+else
+    verified torus.limn --against "$torus"
+    verified --against "$sail" sail.limn
+    verified --against "$sail" corner.limn
+    verified cube.limn --against "$cube"
+    verified several.limn --against "$cube" --mesh 2
+    verified several.limn --against "$torus" --mesh=3 --tolerance 1e-3
+    verified loose.limn --against loose.obj --repair=weld
+    refuses 1 'loose.obj: non-manifold vertex' verify loose.limn --against loose.obj
+    refuses 1 'baked from something else' verify torus.limn --against "$sail"
+    refuses 1 'baked from something else' verify several.limn --against "$cube" --mesh 1
+    awk '/^v / && !done { $2 += 0.001; done = 1 } { print }' "$torus" >moved.obj
+    refuses 1 'baked from something else' verify torus.limn --against moved.obj
+    sed 's/^f \([0-9]*\) \([0-9]*\) \([0-9]*\)$/f \1 \3 \2/' "$torus" >turned.obj
+    last="verify turned"
+    run 1 verify torus.limn --against turned.obj
+    says stderr ' '
+    last="verify --tolerance 0"
+    run 1 verify torus.limn --against "$torus" --tolerance 0
+    says stdout 'largest '
+    says stderr 'largest difference is above 0'
+    refuses 1 'warren weights' verify warren.limn --against "$sail"
+    refuses 1 'there is no mesh 4; the file has 4' verify several.limn --against "$torus" --mesh 4
+    refuses 1 'missing.obj: cannot be read' verify torus.limn --against missing.obj
+    refuses 1 'edge.obj: non-manifold edge' verify torus.limn --against edge.obj
+    refuses 1 'short.limn: the blob is shorter' verify short.limn --against "$torus"
+    refuses 2 'no mesh' verify torus.limn
+    refuses 2 'one .limn file' verify --against "$torus"
+    refuses 2 'see limn verify --help' verify torus.limn --against "$torus" --frob
+    for number in -1 x '' 4294967296; do
+        refuses 2 'not the number of a mesh' verify torus.limn --against "$torus" "--mesh=$number"
+    done
+    for number in -1 x '' nan inf 1e-7x; do
+        refuses 2 'not a tolerance' verify torus.limn --against "$torus" "--tolerance=$number"
+    done
+    refuses 2 'cannot repair' verify torus.limn --against "$torus" --repair=frob
+fi
+
+if [ $failures -gt 0 ]; then
+    echo "$failures failures; see $folder" >&2
+    exit 1
+fi
+cd / && rm -rf "$folder"

@@ -1,0 +1,94 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Same input, same bytes: builds the baker with gcc and clang, with and without optimisation, and compares what the
+# four of them make of every mesh, and what they say about it.
+#
+# usage: determinism_test.sh SOURCE_FOLDER WORK_FOLDER
+#
+# LIMN_TEST_ASSETS may name a folder of further meshes. Exit status 77: a compiler is missing, nothing was tested.
+set -eu
+
+[ $# -eq 2 ] || {
+    echo "usage: $0 SOURCE_FOLDER WORK_FOLDER" >&2
+    exit 2
+}
+source_folder=$(cd "$1" && pwd)
+mkdir -p "$2"
+work_folder=$(cd "$2" && pwd)
+builds="gcc-Debug gcc-Release clang-Debug clang-Release"
+
+for compiler in gcc clang; do
+    command -v $compiler >/dev/null || {
+        echo "$compiler is missing" >&2
+        exit 77
+    }
+done
+
+build() {
+    cmake -S "$source_folder" -B "$work_folder/$1" -G Ninja --log-level=WARNING \
+        -DCMAKE_C_COMPILER="${1%-*}" -DCMAKE_BUILD_TYPE="${1#*-}" -DCMAKE_DISABLE_FIND_PACKAGE_OpenSubdivCPU=ON \
+        -DLIMN_BUILD_TESTS=OFF -DLIMN_BUILD_BENCH=OFF -DLIMN_BUILD_VIEWER=OFF -DLIMN_INSTALL=OFF
+    cmake --build "$work_folder/$1" --target limn
+}
+
+# bake BUILD NAME ARGUMENT...: leaves NAME.limn, if there is one, and NAME.txt with the status and all words.
+bake() {
+    program=$work_folder/$1/baker/limn
+    name=$2
+    shift 2
+    status=0
+    "$program" bake "$@" -o "$name.limn" >"$name.txt" 2>&1 || status=$?
+    [ $status -le 1 ] || echo "$program bake $*: status $status" >>"$work_folder/failures"
+    echo "status $status" >>"$name.txt"
+}
+
+# Bakes every mesh with both weights, and those of the repository together. File names are relative, so that the
+# builds say the same words.
+bake_all() {
+    build=$1
+    shift
+    rm -rf "$work_folder/$build.out"
+    mkdir "$work_folder/$build.out"
+    cd "$work_folder/$build.out"
+    for weights in loop warren; do
+        for mesh in "$@"; do
+            bake "$build" "$weights-$(basename "$(dirname "$mesh")")-$(basename "$mesh")" --weights $weights "$mesh"
+        done
+        bake "$build" "$weights-all" --weights $weights "$source_folder"/assets/*.obj "$source_folder"/assets/*.off
+    done
+    for mesh in "$@"; do
+        bake "$build" "mended-$(basename "$(dirname "$mesh")")-$(basename "$mesh")" \
+            --repair --boundary edge-and-corner "$mesh"
+    done
+    cd "$source_folder"
+}
+
+rm -f "$work_folder/failures"
+for build in $builds; do
+    build "$build" >"$work_folder/$build.log" 2>&1 || {
+        cat "$work_folder/$build.log" >&2
+        exit 1
+    }
+done
+
+list=$work_folder/meshes.txt
+find "$source_folder/assets" ${LIMN_TEST_ASSETS:+"$LIMN_TEST_ASSETS"} -name '*.obj' -o -name '*.off' |
+    LC_ALL=C sort >"$list"
+set --
+while read -r mesh; do
+    set -- "$@" "$mesh"
+done <"$list"
+for build in $builds; do
+    bake_all "$build" "$@"
+done
+
+cd "$work_folder"
+for build in $builds; do
+    diff -rq gcc-Debug.out "$build.out" >>failures || true
+done
+ls gcc-Debug.out/*.limn >/dev/null
+if [ -s failures ]; then
+    cat failures >&2
+    exit 1
+fi
+echo "$# meshes, $(find gcc-Debug.out -name '*.limn' | wc -l) files: the same from $builds"

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+#include "mesh_files.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int is_mesh(const struct dirent *entry) {
+    const char *const dot = strrchr(entry->d_name, '.');
+    return dot && (strcmp(dot, ".obj") == 0 || strcmp(dot, ".off") == 0);
+}
+
+static int visit_folder(const char *folder, void (*visit)(const char *path)) {
+    struct dirent **entries;
+    const int count = scandir(folder, &entries, is_mesh, alphasort);
+    for (int e = 0; e < count; e++) {
+        char path[4096];
+        snprintf(path, sizeof path, "%s/%s", folder, entries[e]->d_name);
+        visit(path);
+        free(entries[e]);
+    }
+    if (count >= 0) free(entries);
+    return count > 0 ? count : 0;
+}
+
+int mesh_files_visit(void (*visit)(const char *path)) {
+    static const char *const parts[] = {"meshes", "quads", "opensubdiv_shapes"};
+    const char *const own = getenv("LIMN_ASSETS"), *const further = getenv("LIMN_TEST_ASSETS");
+    int count = own ? visit_folder(own, visit) : 0;
+    for (int p = 0; p < 3 && further && *further; p++) {
+        char folder[4096];
+        snprintf(folder, sizeof folder, "%s/%s", further, parts[p]);
+        count += visit_folder(folder, visit);
+    }
+    return count;
+}

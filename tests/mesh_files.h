@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The meshes that tests run over: those of the project, in the folder LIMN_ASSETS, and those in the
+ * folder LIMN_TEST_ASSETS if that is set.
+ */
+#ifndef MESH_FILES_H
+#define MESH_FILES_H
+
+/// Calls `visit` with the path of every .obj and .off file, in a fixed order. Returns how many.
+int mesh_files_visit(void (*visit)(const char *path));
+
+#endif

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT */
+/* The triangle domain against its definition. */
+#include "check.h"
+#include "limn/limn.h"
+
+static const limn_domain *domain;
+
+static uint32_t row_at(int i, int j) {
+    const uint32_t row_count = domain->row_counts[LIMN_LEVEL_MAX];
+    for (uint32_t row = 0; row < row_count; row++) {
+        if (domain->rows[row].i == i && domain->rows[row].j == j) return row;
+    }
+    return row_count;
+}
+
+static void test_counts(void) {
+    static const int rows[] = {3, 6, 15, 45, 153}, padded[] = {8, 8, 16, 48, 160};
+    for (int level = 0; level < LIMN_LEVEL_COUNT; level++) {
+        CHECK_EQUAL(domain->row_counts[level], rows[level]);
+        CHECK_EQUAL(domain->padded_row_counts[level], padded[level]);
+        CHECK_EQUAL(domain->index_counts[level], 3 << 2 * level);
+    }
+}
+
+/// Every grid point is a row exactly once, and appears at the level where its coordinates divide.
+static void test_rows_are_nested(void) {
+    bool seen[LIMN_GRID_SIZE + 1][LIMN_GRID_SIZE + 1] = {{false}};
+    for (uint32_t row = 0; row < domain->row_counts[LIMN_LEVEL_MAX]; row++) {
+        const limn_row r = domain->rows[row];
+        CHECK(r.i + r.j <= LIMN_GRID_SIZE && !seen[r.i][r.j]);
+        seen[r.i][r.j] = true;
+        int level = 0;
+        while ((r.i | r.j) % (LIMN_GRID_SIZE >> level) != 0)
+            level++;
+        CHECK_EQUAL(r.level, level);
+        CHECK(row < domain->row_counts[level]);
+        CHECK(level == 0 || row >= domain->row_counts[level - 1]);
+    }
+}
+
+/// Parents are rows of an earlier level, and the row is half-way between them.
+static void test_parents(void) {
+    for (uint32_t row = 0; row < domain->row_counts[LIMN_LEVEL_MAX]; row++) {
+        const limn_row r = domain->rows[row];
+        const limn_row a = domain->rows[r.parents[0]], b = domain->rows[r.parents[1]];
+        CHECK(2 * r.i == a.i + b.i && 2 * r.j == a.j + b.j);
+        CHECK(r.level == 0 ? r.parents[0] == row : a.level < r.level && b.level < r.level);
+        // The parents are joined by an edge of the level before: their own direction, one step
+        // long.
+        const int step = r.level ? LIMN_GRID_SIZE >> (r.level - 1) : 0;
+        const int di = b.i - a.i, dj = b.j - a.j;
+        CHECK((di == 0 && (dj == step || dj == -step)) ||
+              (dj == 0 && (di == step || di == -step)) ||
+              (di == -dj && (di == step || di == -step)));
+    }
+}
+
+static void test_edges(void) {
+    for (uint32_t row = 0; row < domain->row_counts[LIMN_LEVEL_MAX]; row++) {
+        const limn_row r = domain->rows[row];
+        CHECK_EQUAL(r.edges, (r.j == 0) | (r.i + r.j == LIMN_GRID_SIZE) << 1 | (r.i == 0) << 2);
+    }
+    for (int t = 0; t <= LIMN_GRID_SIZE; t++) {
+        CHECK_EQUAL(domain->edge_rows[0][t], row_at(t, 0));
+        CHECK_EQUAL(domain->edge_rows[1][t], row_at(LIMN_GRID_SIZE - t, t));
+        CHECK_EQUAL(domain->edge_rows[2][t], row_at(0, LIMN_GRID_SIZE - t));
+    }
+}
+
+/// The order within a level's new rows is part of the format: edges along their directions, then
+/// the interior row by row.
+static void test_order(void) {
+    static const uint8_t level_2[9][2] = {{4, 0}, {12, 0}, {12, 4}, {4, 12}, {0, 12},
+                                          {0, 4}, {4, 4},  {8, 4},  {4, 8}};
+    for (int r = 0; r < 9; r++)
+        CHECK_EQUAL(row_at(level_2[r][0], level_2[r][1]), (uint32_t)(6 + r));
+    CHECK_EQUAL(row_at(8, 0), 3u);
+    CHECK_EQUAL(row_at(8, 8), 4u);
+    CHECK_EQUAL(row_at(0, 8), 5u);
+}
+
+/// Triangles of a level: counter-clockwise, equally large, and together the whole patch: every
+/// inner edge is used once in each direction.
+static void test_indices(void) {
+    for (int level = 0; level < LIMN_LEVEL_COUNT; level++) {
+        static unsigned char used[153][153];
+        memset(used, 0, sizeof used);
+        const uint16_t *const indices = domain->indices[level];
+        const int step = LIMN_GRID_SIZE >> level;
+        for (uint32_t i = 0; i < domain->index_counts[level]; i += 3) {
+            const limn_row a = domain->rows[indices[i]], b = domain->rows[indices[i + 1]];
+            const limn_row c = domain->rows[indices[i + 2]];
+            CHECK_EQUAL((b.i - a.i) * (c.j - a.j) - (b.j - a.j) * (c.i - a.i), step * step);
+            for (uint32_t corner = 0; corner < 3; corner++) {
+                CHECK(indices[i + corner] < domain->row_counts[level]);
+                CHECK_EQUAL(used[indices[i + corner]][indices[i + (corner + 1) % 3]]++, 0);
+            }
+        }
+        for (int a = 0; a < 153; a++) {
+            for (int b = 0; b < 153; b++) {
+                const bool on_boundary = domain->rows[a].edges & domain->rows[b].edges;
+                if (used[a][b]) CHECK(on_boundary != used[b][a]);
+            }
+        }
+    }
+}
+
+int main(void) {
+    domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE);
+    CHECK_EQUAL(domain->kind, LIMN_DOMAIN_TRIANGLE);
+    CHECK_EQUAL(domain->corner_count, 3);
+    test_counts();
+    test_rows_are_nested();
+    test_parents();
+    test_edges();
+    test_order();
+    test_indices();
+    return check_report();
+}

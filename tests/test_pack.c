@@ -1,0 +1,811 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Opening a file: what the view shows of a good one, which result each kind of damage gives, and
+ * that nothing which opens can make evaluation leave its buffers (run under the sanitizers).
+ */
+#define _POSIX_C_SOURCE 200809L /* posix_memalign */
+
+#include "../runtime/checksum.h"
+#include "limn/bake.h"
+#include "limn/format.h"
+#include "limn/limn.h"
+
+#include "check.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#ifdef TEST_WITH_XXHASH
+#include <xxhash.h>
+#endif
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+// ---- Meshes
+
+typedef struct mesh_case {
+    const char *name;
+    const float *positions;
+    const uint32_t *faces;
+    uint32_t position_count, face_count;
+} mesh_case;
+
+static const float tetrahedron_positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+static const uint32_t tetrahedron_faces[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+static const mesh_case tetrahedron = {"tetrahedron", tetrahedron_positions, tetrahedron_faces, 4,
+                                      4};
+
+/// The same surface with other numbers, another place and one control point that no face uses.
+static const float twin_positions[] = {7, 7, 7, 3, 0, 0, 4, 0, 0, 3, 1, 0, 3, 0, 1};
+static const uint32_t twin_faces[] = {4, 2, 3, 3, 2, 1, 1, 2, 4, 1, 4, 3};
+static const mesh_case twin = {"twin", twin_positions, twin_faces, 5, 4};
+
+/// Three triangles around a corner of an open strip: several classes, all of them narrow.
+static const float strip_positions[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, -1, 1, 1};
+static const uint32_t strip_faces[] = {0, 1, 2, 0, 2, 3, 0, 3, 4};
+static const mesh_case strip = {"strip", strip_positions, strip_faces, 5, 3};
+
+/// A fan of WHEEL_SIZE triangles around vertex 0 with an open rim: its one class is wide.
+enum { WHEEL_SIZE = 260 };
+static float wheel_positions[3 * (WHEEL_SIZE + 1)];
+static uint32_t wheel_faces[3 * WHEEL_SIZE];
+static const mesh_case wheel = {"wheel", wheel_positions, wheel_faces, WHEEL_SIZE + 1, WHEEL_SIZE};
+
+static void make_wheel(void) {
+    for (uint32_t k = 0; k < WHEEL_SIZE; k++) {
+        const double angle = 6.283185307179586 * k / WHEEL_SIZE;
+        wheel_positions[3 * (k + 1)] = (float)cos(angle);
+        wheel_positions[3 * (k + 1) + 1] = (float)sin(angle);
+        wheel_positions[3 * (k + 1) + 2] = 0.25f;
+        wheel_faces[3 * k + 1] = 1 + k;
+        wheel_faces[3 * k + 2] = 1 + (k + 1) % WHEEL_SIZE;
+    }
+}
+
+// ---- Blobs
+
+/// A file in memory, with not one byte of room behind it.
+typedef struct blob {
+    unsigned char *bytes;
+    size_t size;
+} blob;
+
+static blob make_blob(size_t size) {
+    void *bytes = NULL;
+    if (posix_memalign(&bytes, LIMN_FORMAT_ALIGNMENT, size ? size : 1) != 0) abort();
+    return (blob){.bytes = bytes, .size = size};
+}
+
+static blob copy_blob(const blob *source, size_t size) {
+    const blob copy = make_blob(size);
+    memcpy(copy.bytes, source->bytes, size);
+    return copy;
+}
+
+static limn_file_header *header_of(const blob *file) {
+    return (limn_file_header *)(void *)file->bytes;
+}
+
+static limn_file_chunk *directory_of(const blob *file) {
+    return (limn_file_chunk *)(void *)(file->bytes + sizeof(limn_file_header));
+}
+
+static limn_file_chunk *find_chunk(const blob *file, uint32_t mesh, uint32_t kind) {
+    limn_file_chunk *chunk = directory_of(file);
+    while (chunk->mesh != mesh || chunk->kind != kind)
+        chunk++;
+    return chunk;
+}
+
+static void *chunk_data(const blob *file, uint32_t mesh, uint32_t kind) {
+    return file->bytes + find_chunk(file, mesh, kind)->offset;
+}
+
+static void fix_checksum(const blob *file) {
+    const size_t summed = offsetof(limn_file_header, chunk_count);
+    header_of(file)->checksum = limni_checksum(file->bytes + summed, file->size - summed);
+}
+
+static blob bake(const mesh_case *const *meshes, size_t mesh_count) {
+    limn_baker *const baker = limn_baker_create(NULL);
+    if (!baker) abort();
+    for (size_t m = 0; m < mesh_count; m++)
+        CHECK_EQUAL(limn_baker_add_mesh(
+                        baker, &(limn_bake_mesh){.name = meshes[m]->name,
+                                                 .positions = meshes[m]->positions,
+                                                 .position_count = meshes[m]->position_count,
+                                                 .face_count = meshes[m]->face_count,
+                                                 .face_indices = meshes[m]->faces}),
+                    LIMN_BAKE_OK);
+    const void *bytes = NULL;
+    size_t size = 0;
+    CHECK_EQUAL(limn_baker_finish(baker, &bytes, &size), LIMN_BAKE_OK);
+    CHECK((uintptr_t)bytes % LIMN_FORMAT_ALIGNMENT == 0);
+    const blob file =
+        copy_blob(&(blob){.bytes = (unsigned char *)(uintptr_t)bytes, .size = size}, size);
+    limn_baker_destroy(baker);
+    return file;
+}
+
+static blob bake_tetrahedron(void) {
+    return bake((const mesh_case *[]){&tetrahedron}, 1);
+}
+
+/// Opens, and checks that a refusal leaves the view as it was.
+static limn_result open_result(const void *bytes, size_t size) {
+    limn_pack pack, untouched;
+    memset(&pack, 0x5a, sizeof pack);
+    memset(&untouched, 0x5a, sizeof untouched);
+    const limn_result result = limn_pack_open(&pack, bytes, size);
+    const bool same = memcmp(&pack, &untouched, sizeof pack) == 0;
+    CHECK(same == (result != LIMN_OK));
+    return result;
+}
+
+// ---- Views
+
+static bool is_permutation(const limn_mesh *mesh) {
+    unsigned char *const seen = calloc(mesh->patch_count, 1);
+    if (!seen) abort();
+    bool valid = true;
+    for (uint32_t p = 0; p < mesh->patch_count; p++) {
+        const uint32_t face = limn_mesh_face(mesh, p).face;
+        valid = valid && face < mesh->patch_count && !seen[face];
+        if (valid) seen[face] = 1;
+    }
+    free(seen);
+    return valid;
+}
+
+static float *evaluate(const limn_mesh *mesh, uint32_t level) {
+    const limn_plan plan = limn_plan_uniform(mesh, level);
+    const size_t size = (size_t)plan.vertex_count * 3 * sizeof(float);
+    float *const vertices = malloc(size ? size : 1);
+    if (!vertices) abort();
+    limn_evaluate(&plan, mesh->controls, 0, plan.patch_count, &(limn_output){.vertices = vertices});
+    return vertices;
+}
+
+/// What the patches say about one control point that is their corner.
+typedef struct corner {
+    bool known;
+    float limit[3];
+    uint32_t valence, boundary;
+} corner;
+
+static void check_corner(corner *seen, const corner *now) {
+    if (!seen->known) *seen = *now;
+    CHECK(memcmp(seen->limit, now->limit, sizeof now->limit) == 0);
+    CHECK_EQUAL(seen->valence, now->valence);
+    CHECK_EQUAL(seen->boundary, now->boundary);
+}
+
+/// At level 0 the vertices of a patch are its corners. Turned the right way, all patches round a
+/// control point agree on its limit, its valence and whether it lies on a boundary.
+static void check_rotations(const mesh_case *expected, const limn_mesh *mesh) {
+    corner corners[WHEEL_SIZE + 1] = {0};
+    float *const vertices = evaluate(mesh, 0);
+    for (uint32_t r = 0; r < mesh->run_count; r++) {
+        const limn_file_run *const run = &mesh->runs[r];
+        const limn_file_class *const class = &mesh->classes[run->class_index];
+        for (uint32_t p = run->first_patch; p < run->first_patch + run->patch_count; p++) {
+            const limn_patch_face face = limn_mesh_face(mesh, p);
+            for (uint32_t c = 0; c < 3; c++) {
+                const uint32_t at = 3 * face.face + (c + face.rotation) % 3;
+                corner now = {.known = true,
+                              .valence = class->valences[c],
+                              .boundary = class->boundary_corners >> c & 1};
+                memcpy(now.limit, vertices + 3 * (3 * (size_t)p + c), sizeof now.limit);
+                check_corner(&corners[expected->faces[at]], &now);
+            }
+        }
+    }
+    free(vertices);
+}
+
+static void check_bounds(const mesh_case *expected, const limn_mesh *mesh) {
+    for (int axis = 0; axis < 3; axis++) {
+        float low = INFINITY, high = -INFINITY;
+        for (uint32_t c = 0; c < expected->position_count; c++) {
+            low = fminf(low, expected->positions[3 * c + (uint32_t)axis]);
+            high = fmaxf(high, expected->positions[3 * c + (uint32_t)axis]);
+        }
+        CHECK(mesh->bounds_min[axis] == low && mesh->bounds_max[axis] == high);
+    }
+}
+
+static void check_view(const mesh_case *expected, const limn_pack *pack, uint32_t m) {
+    const limn_mesh mesh = limn_pack_mesh(pack, m);
+    CHECK_TEXT(mesh.name, expected->name);
+    CHECK(mesh.domain == limn_domain_get(LIMN_DOMAIN_TRIANGLE));
+    CHECK(mesh.kernels == pack->kernels);
+    CHECK_EQUAL(mesh.patch_count, expected->face_count);
+    if (!CHECK_EQUAL(mesh.control_count, expected->position_count)) return;
+    CHECK(memcmp(mesh.controls, expected->positions, mesh.control_count * 3 * sizeof(float)) == 0);
+    check_bounds(expected, &mesh);
+    CHECK(is_permutation(&mesh));
+    check_rotations(expected, &mesh);
+}
+
+static void test_views(void) {
+    const mesh_case *const meshes[] = {&tetrahedron, &wheel, &twin, &strip};
+    const blob file = bake(meshes, COUNT(meshes));
+    limn_pack pack;
+    if (CHECK_EQUAL(limn_pack_open(&pack, file.bytes, file.size), LIMN_OK)) {
+        CHECK(pack.blob == file.bytes);
+        CHECK_EQUAL(pack.blob_size, file.size);
+        CHECK_TEXT(pack.info, "scheme=loop weights=loop boundary=edge-only");
+        CHECK(pack.kernels == limn_kernels_select(LIMN_ISA_ALL, LIMN_FAMILY_REPRODUCIBLE));
+        CHECK_EQUAL(pack.class_count, header_of(&file)->class_count);
+        CHECK_EQUAL(pack.mesh_count, COUNT(meshes));
+        for (uint32_t m = 0; m < pack.mesh_count; m++)
+            check_view(meshes[m], &pack, m);
+        CHECK(limn_pack_mesh(&pack, 1)
+                  .classes[limn_pack_mesh(&pack, 1).runs[0].class_index]
+                  .control_count > LIMN_FORMAT_NARROW_SLOTS);
+    }
+    free(file.bytes);
+}
+
+/// A mesh of a kind that is there already brings no tables.
+static void test_sharing(void) {
+    const blob one = bake((const mesh_case *[]){&tetrahedron, &wheel}, 2);
+    const blob two = bake((const mesh_case *[]){&tetrahedron, &wheel, &twin}, 3);
+    CHECK_EQUAL(header_of(&two)->class_count, header_of(&one)->class_count);
+    CHECK_EQUAL(find_chunk(&two, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES)->size,
+                find_chunk(&one, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES)->size);
+    free(one.bytes);
+    free(two.bytes);
+}
+
+// ---- Damage that the header shows
+
+static void test_sizes(void) {
+    const blob file = bake_tetrahedron();
+    for (size_t size = 0; size < file.size; size++) {
+        const blob prefix = copy_blob(&file, size);
+        CHECK_EQUAL(open_result(prefix.bytes, size), LIMN_ERROR_TRUNCATED);
+        free(prefix.bytes);
+    }
+    CHECK_EQUAL(open_result(NULL, 0), LIMN_ERROR_TRUNCATED);
+
+    const blob longer = make_blob(file.size + 1);
+    memcpy(longer.bytes, file.bytes, file.size);
+    longer.bytes[file.size] = 0;
+    CHECK_EQUAL(open_result(longer.bytes, file.size), LIMN_OK);
+    CHECK_EQUAL(open_result(longer.bytes, file.size + 1), LIMN_ERROR_SIZE);
+    free(longer.bytes);
+    free(file.bytes);
+}
+
+static void test_alignment(void) {
+    const blob file = bake_tetrahedron();
+    const blob room = make_blob(file.size + LIMN_FORMAT_ALIGNMENT);
+    for (size_t offset = 0; offset <= LIMN_FORMAT_ALIGNMENT; offset++) {
+        memcpy(room.bytes + offset, file.bytes, file.size);
+        const bool aligned = offset % LIMN_FORMAT_ALIGNMENT == 0;
+        CHECK_EQUAL(open_result(room.bytes + offset, file.size),
+                    aligned ? LIMN_OK : LIMN_ERROR_ALIGNMENT);
+    }
+    free(room.bytes);
+    free(file.bytes);
+}
+
+static void test_headers(void) {
+    const blob file = bake_tetrahedron();
+    limn_file_header *const header = header_of(&file);
+    const limn_file_header good = *header;
+    for (size_t c = 0; c < sizeof header->magic; c++) {
+        header->magic[c] = (char)(header->magic[c] ^ 0x20);
+        CHECK_EQUAL(open_result(file.bytes, file.size), LIMN_ERROR_MAGIC);
+        *header = good;
+    }
+    const uint32_t versions[] = {0, LIMN_FORMAT_VERSION + 1, LIMN_FORMAT_VERSION << 24, UINT32_MAX};
+    for (size_t v = 0; v < COUNT(versions); v++) {
+        header->version = versions[v];
+        CHECK_EQUAL(open_result(file.bytes, file.size), LIMN_ERROR_VERSION);
+        *header = good;
+    }
+    header->size = UINT64_MAX;
+    CHECK_EQUAL(open_result(file.bytes, file.size), LIMN_ERROR_TRUNCATED);
+    header->size = 0;
+    CHECK_EQUAL(open_result(file.bytes, file.size), LIMN_ERROR_SIZE);
+    *header = good;
+    header->checksum ^= 1;
+    CHECK_EQUAL(open_result(file.bytes, file.size), LIMN_ERROR_CHECKSUM);
+    free(file.bytes);
+}
+
+// ---- Damage anywhere
+
+/// Every single changed byte is found, in the gaps between chunks too.
+static void test_changed_bytes(void) {
+    const unsigned char patterns[] = {0x01, 0x80, 0xff};
+    const blob file = bake_tetrahedron();
+    for (size_t at = 0; at < file.size; at++) {
+        for (size_t p = 0; p < COUNT(patterns); p++) {
+            file.bytes[at] ^= patterns[p];
+            CHECK(open_result(file.bytes, file.size) != LIMN_OK);
+            file.bytes[at] ^= patterns[p];
+        }
+    }
+    CHECK_EQUAL(open_result(file.bytes, file.size), LIMN_OK);
+    free(file.bytes);
+}
+
+/// With the checksum mended: refused, or evaluated at every level into buffers of just that size.
+/// Returns whether it opened.
+static bool check_safe(const blob *file) {
+    fix_checksum(file);
+    limn_pack pack;
+    if (limn_pack_open(&pack, file->bytes, file->size) != LIMN_OK) return false;
+    for (uint32_t m = 0; m < pack.mesh_count; m++) {
+        const limn_mesh mesh = limn_pack_mesh(&pack, m);
+        for (uint32_t level = 0; level <= LIMN_LEVEL_MAX; level++)
+            free(evaluate(&mesh, level));
+        CHECK(strlen(mesh.name) < file->size);
+        for (uint32_t p = 0; p < mesh.patch_count; p++)
+            CHECK(limn_mesh_face(&mesh, p).face < mesh.patch_count);
+    }
+    return true;
+}
+
+/// From one byte to the next that is changed: tables are most of a file, and all alike.
+static size_t step_at(const blob *file, size_t at) {
+    const limn_file_chunk *const tables = find_chunk(file, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES);
+    return at >= tables->offset && at < tables->offset + tables->size ? 13 : 1;
+}
+
+static void test_mended_bytes(void) {
+    const unsigned char patterns[] = {0x01, 0x80, 0xff};
+    const blob file = bake_tetrahedron();
+    uint32_t opened = 0, refused = 0;
+    for (size_t at = offsetof(limn_file_header, chunk_count); at < file.size;
+         at += step_at(&file, at)) {
+        for (size_t p = 0; p < COUNT(patterns); p++) {
+            const blob changed = copy_blob(&file, file.size);
+            changed.bytes[at] ^= patterns[p];
+            if (check_safe(&changed)) {
+                opened++;
+            } else {
+                refused++;
+            }
+            free(changed.bytes);
+        }
+    }
+    CHECK(opened > 100);
+    CHECK(refused > 100);
+    free(file.bytes);
+}
+
+/// Counts, offsets and indices at the limits of their types.
+static void test_mended_words(const mesh_case *const *meshes, size_t mesh_count) {
+    const uint32_t values[] = {0,       1,          2,          3,          64,        0xffff,
+                               1 << 30, 0x3fffffff, 0x7fffffff, 0x80000000, 0xffffffff};
+    const blob file = bake(meshes, mesh_count);
+    const limn_file_chunk *const tables = find_chunk(&file, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES);
+    for (size_t at = offsetof(limn_file_header, chunk_count); at + 4 <= file.size; at += 4) {
+        if (at >= tables->offset && at < tables->offset + tables->size) continue;
+        for (size_t v = 0; v < COUNT(values); v++) {
+            const blob changed = copy_blob(&file, file.size);
+            memcpy(changed.bytes + at, &values[v], sizeof values[v]);
+            check_safe(&changed);
+            free(changed.bytes);
+        }
+    }
+    free(file.bytes);
+}
+
+// ---- Damage of every kind
+
+/// The file of these tests: mesh 0 has one class; mesh 1 has several, of one patch each; mesh 2
+/// has a wide one.
+enum { TETRAHEDRON, STRIP, WHEEL };
+
+typedef void damage_fn(const blob *file);
+
+typedef struct damage {
+    const char *name;
+    damage_fn *apply;
+    limn_result expected;
+} damage;
+
+static limn_file_class *classes_of(const blob *file) {
+    return chunk_data(file, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_CLASSES);
+}
+static limn_file_chunk *tables_of(const blob *file) {
+    return find_chunk(file, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES);
+}
+static limn_file_mesh *record_of(const blob *file, uint32_t mesh) {
+    return chunk_data(file, mesh, LIMN_CHUNK_MESH);
+}
+static limn_file_run *runs_of(const blob *file, uint32_t mesh) {
+    return chunk_data(file, mesh, LIMN_CHUNK_RUNS);
+}
+static uint32_t *faces_of(const blob *file, uint32_t mesh) {
+    return chunk_data(file, mesh, LIMN_CHUNK_FACES);
+}
+static uint32_t *indices_of(const blob *file, uint32_t mesh) {
+    return chunk_data(file, mesh, LIMN_CHUNK_INDICES);
+}
+static float *controls_of(const blob *file, uint32_t mesh) {
+    return chunk_data(file, mesh, LIMN_CHUNK_CONTROLS);
+}
+
+static void remove_chunk(const blob *file, uint32_t mesh, uint32_t kind) {
+    limn_file_chunk *const chunk = find_chunk(file, mesh, kind);
+    limn_file_chunk *const end = directory_of(file) + header_of(file)->chunk_count;
+    memmove(chunk, chunk + 1, (size_t)(end - chunk - 1) * sizeof *chunk);
+    header_of(file)->chunk_count--;
+}
+
+#define WITHOUT(name, mesh, kind)                                                                  \
+    static void name(const blob *file) {                                                           \
+        remove_chunk(file, mesh, kind);                                                            \
+    }
+WITHOUT(without_info, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_INFO)
+WITHOUT(without_classes, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_CLASSES)
+WITHOUT(without_tables, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES)
+WITHOUT(without_mesh, STRIP, LIMN_CHUNK_MESH)
+WITHOUT(without_name, STRIP, LIMN_CHUNK_NAME)
+WITHOUT(without_controls, STRIP, LIMN_CHUNK_CONTROLS)
+WITHOUT(without_runs, STRIP, LIMN_CHUNK_RUNS)
+WITHOUT(without_faces, STRIP, LIMN_CHUNK_FACES)
+WITHOUT(without_indices, STRIP, LIMN_CHUNK_INDICES)
+WITHOUT(without_slots, STRIP, LIMN_CHUNK_SLOTS)
+
+static void no_chunks(const blob *file) {
+    header_of(file)->chunk_count = 0;
+}
+static void too_many_chunks(const blob *file) {
+    header_of(file)->chunk_count = UINT32_MAX;
+}
+static void fewer_meshes(const blob *file) {
+    header_of(file)->mesh_count--;
+}
+static void more_meshes(const blob *file) {
+    header_of(file)->mesh_count = UINT32_MAX;
+}
+static void repeated_chunk(const blob *file) {
+    directory_of(file)[1] = directory_of(file)[0];
+}
+static void unsorted_chunks(const blob *file) {
+    const limn_file_chunk first = directory_of(file)[3];
+    directory_of(file)[3] = directory_of(file)[4];
+    directory_of(file)[4] = first;
+}
+static void misaligned_chunk(const blob *file) {
+    tables_of(file)->offset += 4;
+}
+static void chunk_behind_the_end(const blob *file) {
+    tables_of(file)->offset = (file->size / LIMN_FORMAT_ALIGNMENT + 1) * LIMN_FORMAT_ALIGNMENT;
+    tables_of(file)->size = 0;
+}
+static void chunk_over_the_end(const blob *file) {
+    tables_of(file)->size = file->size - tables_of(file)->offset + 1;
+}
+static void chunk_size_overflows(const blob *file) {
+    tables_of(file)->size = UINT64_MAX - 63;
+}
+/// Not damage: tables alone are a file too.
+static void no_meshes(const blob *file) {
+    header_of(file)->mesh_count = 0;
+    header_of(file)->chunk_count = 3;
+}
+static void fewer_classes(const blob *file) {
+    header_of(file)->class_count--;
+}
+
+static void open_info(const blob *file) {
+    find_chunk(file, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_INFO)->size--;
+}
+static void open_name(const blob *file) {
+    char *const name = chunk_data(file, WHEEL, LIMN_CHUNK_NAME);
+    name[strlen(name)] = '!';
+}
+static void empty_name(const blob *file) {
+    find_chunk(file, WHEEL, LIMN_CHUNK_NAME)->size = 0;
+}
+
+static void class_domain(const blob *file) {
+    classes_of(file)->domain = LIMN_DOMAIN_COUNT;
+}
+static void class_depth(const blob *file) {
+    classes_of(file)->depth = LIMN_LEVEL_MAX + 1;
+}
+static void class_without_controls(const blob *file) {
+    classes_of(file)->control_count = 0;
+}
+static void class_with_many_controls(const blob *file) {
+    classes_of(file)->control_count = UINT32_MAX;
+}
+static void class_table_misaligned(const blob *file) {
+    classes_of(file)->table_offset += 4;
+}
+static void class_table_outside(const blob *file) {
+    classes_of(file)->table_offset = tables_of(file)->size;
+}
+static void class_table_overflows(const blob *file) {
+    classes_of(file)->table_offset = UINT64_MAX - 63;
+}
+static void table_not_a_number(const blob *file) {
+    *(float *)chunk_data(file, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES) = NAN;
+}
+static void table_infinite(const blob *file) {
+    float *const table = chunk_data(file, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES);
+    table[tables_of(file)->size / sizeof *table - 1] = -INFINITY;
+}
+
+static void mesh_controls(const blob *file) {
+    record_of(file, STRIP)->control_count++;
+}
+static void mesh_patches(const blob *file) {
+    record_of(file, STRIP)->patch_count--;
+}
+static void mesh_runs(const blob *file) {
+    record_of(file, STRIP)->run_count = UINT32_MAX;
+}
+static void mesh_indices(const blob *file) {
+    record_of(file, STRIP)->index_count = UINT64_MAX / 4 + 1;
+}
+static void mesh_domain(const blob *file) {
+    record_of(file, STRIP)->domain = LIMN_DOMAIN_COUNT;
+}
+
+static void control_not_a_number(const blob *file) {
+    controls_of(file, WHEEL)[3 * WHEEL_SIZE + 2] = NAN;
+}
+static void bounds_infinite(const blob *file) {
+    record_of(file, WHEEL)->bounds_max[2] = INFINITY;
+}
+static void origin_infinite(const blob *file) {
+    record_of(file, WHEEL)->origin[0] = INFINITY;
+}
+
+static void run_class(const blob *file) {
+    runs_of(file, STRIP)[1].class_index = header_of(file)->class_count;
+}
+static void run_first_patch(const blob *file) {
+    runs_of(file, STRIP)[1].first_patch++;
+}
+static void run_first_index(const blob *file) {
+    runs_of(file, STRIP)[1].first_index++;
+}
+static void run_first_slot(const blob *file) {
+    runs_of(file, WHEEL)[0].first_slot++;
+}
+static void run_empty(const blob *file) {
+    runs_of(file, STRIP)[0].patch_count = 0;
+}
+static void run_too_long(const blob *file) {
+    runs_of(file, STRIP)[0].patch_count = UINT32_MAX;
+}
+static void run_missing(const blob *file) {
+    record_of(file, STRIP)->run_count--;
+    find_chunk(file, STRIP, LIMN_CHUNK_RUNS)->size -= sizeof(limn_file_run);
+}
+static void slots_missing(const blob *file) {
+    find_chunk(file, WHEEL, LIMN_CHUNK_SLOTS)->size -= 2;
+}
+
+static void face_outside(const blob *file) {
+    faces_of(file, STRIP)[2] = 3 << 2;
+}
+static void face_rotation(const blob *file) {
+    faces_of(file, STRIP)[0] |= 3;
+}
+
+static void index_outside(const blob *file) {
+    indices_of(file, TETRAHEDRON)[3] = 4;
+}
+static void index_far_outside(const blob *file) {
+    indices_of(file, TETRAHEDRON)[15] = UINT32_MAX;
+}
+static void index_repeated(const blob *file) {
+    indices_of(file, TETRAHEDRON)[4] = indices_of(file, TETRAHEDRON)[5];
+}
+static void index_descending(const blob *file) {
+    uint32_t *const indices = indices_of(file, WHEEL);
+    const uint32_t last = indices[WHEEL_SIZE];
+    indices[WHEEL_SIZE] = indices[WHEEL_SIZE - 1];
+    indices[WHEEL_SIZE - 1] = last;
+}
+static void slot_narrow(const blob *file) {
+    *(uint8_t *)chunk_data(file, TETRAHEDRON, LIMN_CHUNK_SLOTS) = 4;
+}
+static void slot_wide(const blob *file) {
+    uint16_t *const slots = chunk_data(file, WHEEL, LIMN_CHUNK_SLOTS);
+    slots[WHEEL_SIZE * (WHEEL_SIZE + 1) - 1] = WHEEL_SIZE + 1;
+}
+
+#define DAMAGE(name, expected)                                                                     \
+    { #name, name, expected }
+
+static const damage damages[] = {
+    DAMAGE(without_info, LIMN_ERROR_CHUNK),
+    DAMAGE(without_classes, LIMN_ERROR_CHUNK),
+    DAMAGE(without_tables, LIMN_ERROR_CHUNK),
+    DAMAGE(without_mesh, LIMN_ERROR_CHUNK),
+    DAMAGE(without_name, LIMN_ERROR_CHUNK),
+    DAMAGE(without_controls, LIMN_ERROR_CHUNK),
+    DAMAGE(without_runs, LIMN_ERROR_CHUNK),
+    DAMAGE(without_faces, LIMN_ERROR_CHUNK),
+    DAMAGE(without_indices, LIMN_ERROR_CHUNK),
+    DAMAGE(without_slots, LIMN_ERROR_CHUNK),
+    DAMAGE(no_chunks, LIMN_ERROR_CHUNK),
+    DAMAGE(too_many_chunks, LIMN_ERROR_CHUNK),
+    DAMAGE(fewer_meshes, LIMN_ERROR_CHUNK),
+    DAMAGE(more_meshes, LIMN_ERROR_CHUNK),
+    DAMAGE(repeated_chunk, LIMN_ERROR_CHUNK),
+    DAMAGE(unsorted_chunks, LIMN_ERROR_CHUNK),
+    DAMAGE(misaligned_chunk, LIMN_ERROR_CHUNK),
+    DAMAGE(chunk_behind_the_end, LIMN_ERROR_CHUNK),
+    DAMAGE(chunk_over_the_end, LIMN_ERROR_CHUNK),
+    DAMAGE(chunk_size_overflows, LIMN_ERROR_CHUNK),
+    DAMAGE(no_meshes, LIMN_OK),
+    DAMAGE(fewer_classes, LIMN_ERROR_CHUNK),
+    DAMAGE(open_info, LIMN_ERROR_TEXT),
+    DAMAGE(open_name, LIMN_ERROR_TEXT),
+    DAMAGE(empty_name, LIMN_ERROR_TEXT),
+    DAMAGE(class_domain, LIMN_ERROR_CLASS),
+    DAMAGE(class_depth, LIMN_ERROR_CLASS),
+    DAMAGE(class_without_controls, LIMN_ERROR_CLASS),
+    DAMAGE(class_with_many_controls, LIMN_ERROR_CLASS),
+    DAMAGE(class_table_misaligned, LIMN_ERROR_CLASS),
+    DAMAGE(class_table_outside, LIMN_ERROR_CLASS),
+    DAMAGE(class_table_overflows, LIMN_ERROR_CLASS),
+    DAMAGE(table_not_a_number, LIMN_ERROR_TABLE),
+    DAMAGE(table_infinite, LIMN_ERROR_TABLE),
+    DAMAGE(mesh_controls, LIMN_ERROR_MESH),
+    DAMAGE(mesh_patches, LIMN_ERROR_MESH),
+    DAMAGE(mesh_runs, LIMN_ERROR_MESH),
+    DAMAGE(mesh_indices, LIMN_ERROR_MESH),
+    DAMAGE(mesh_domain, LIMN_ERROR_MESH),
+    DAMAGE(control_not_a_number, LIMN_ERROR_CONTROLS),
+    DAMAGE(bounds_infinite, LIMN_ERROR_CONTROLS),
+    DAMAGE(origin_infinite, LIMN_ERROR_CONTROLS),
+    DAMAGE(run_class, LIMN_ERROR_RUN),
+    DAMAGE(run_first_patch, LIMN_ERROR_RUN),
+    DAMAGE(run_first_index, LIMN_ERROR_RUN),
+    DAMAGE(run_first_slot, LIMN_ERROR_RUN),
+    DAMAGE(run_empty, LIMN_ERROR_RUN),
+    DAMAGE(run_too_long, LIMN_ERROR_RUN),
+    DAMAGE(run_missing, LIMN_ERROR_RUN),
+    DAMAGE(slots_missing, LIMN_ERROR_RUN),
+    DAMAGE(face_outside, LIMN_ERROR_FACE),
+    DAMAGE(face_rotation, LIMN_ERROR_FACE),
+    DAMAGE(index_outside, LIMN_ERROR_INDEX),
+    DAMAGE(index_far_outside, LIMN_ERROR_INDEX),
+    DAMAGE(index_repeated, LIMN_ERROR_INDEX),
+    DAMAGE(index_descending, LIMN_ERROR_INDEX),
+    DAMAGE(slot_narrow, LIMN_ERROR_SLOT),
+    DAMAGE(slot_wide, LIMN_ERROR_SLOT),
+};
+
+static void test_damages(void) {
+    const blob file = bake((const mesh_case *[]){&tetrahedron, &strip, &wheel}, 3);
+    CHECK(runs_of(&file, STRIP)[1].first_patch > 0);
+    for (size_t d = 0; d < COUNT(damages); d++) {
+        const blob damaged = copy_blob(&file, file.size);
+        damages[d].apply(&damaged);
+        fix_checksum(&damaged);
+        const limn_result result = open_result(damaged.bytes, damaged.size);
+        if (!CHECK_EQUAL(result, damages[d].expected))
+            fprintf(stderr, "    %s: %s\n", damages[d].name, limn_result_text(result));
+        free(damaged.bytes);
+    }
+    free(file.bytes);
+}
+
+// ---- Chunks that this version does not know
+
+/// The file with one more entry in its directory, in its place.
+static blob insert_chunk(const blob *file, const limn_file_chunk *added) {
+    const size_t head = sizeof(limn_file_header), room = LIMN_FORMAT_ALIGNMENT;
+    const uint32_t count = header_of(file)->chunk_count;
+    const blob longer = make_blob(file->size + room);
+    memset(longer.bytes, 0, longer.size);
+    memcpy(longer.bytes, file->bytes, head);
+    const size_t first = (head + count * sizeof *added + room - 1) / room * room;
+    memcpy(longer.bytes + first + room, file->bytes + first, file->size - first);
+    header_of(&longer)->size = longer.size;
+    header_of(&longer)->chunk_count++;
+
+    limn_file_chunk *dst = directory_of(&longer);
+    bool done = false;
+    for (uint32_t c = 0; c < count; c++) {
+        limn_file_chunk chunk = directory_of(file)[c];
+        chunk.offset += room;
+        const bool before = added->mesh + 1 < chunk.mesh + 1 ||
+                            (added->mesh == chunk.mesh && added->kind <= chunk.kind);
+        if (before && !done) *dst++ = *added;
+        done |= before;
+        *dst++ = chunk;
+    }
+    if (!done) *dst = *added;
+    fix_checksum(&longer);
+    return longer;
+}
+
+static void check_inserted(uint32_t mesh, uint32_t kind, uint32_t flags, limn_result expected) {
+    const blob file = bake_tetrahedron();
+    const blob longer =
+        insert_chunk(&file, &(limn_file_chunk){.mesh = mesh, .kind = kind, .flags = flags});
+    CHECK_EQUAL(open_result(longer.bytes, longer.size), expected);
+    if (expected == LIMN_OK) CHECK(check_safe(&longer));
+    free(longer.bytes);
+    free(file.bytes);
+}
+
+static void test_unknown_chunks(void) {
+    const uint32_t places[] = {LIMN_FORMAT_NO_MESH, 0};
+    const uint32_t kinds[] = {LIMN_FORMAT_KIND('A', 'A', 'A', 'A'),
+                              LIMN_FORMAT_KIND('K', 'I', 'N', 'D'),
+                              LIMN_FORMAT_KIND('z', 'z', 'z', 'z'), UINT32_MAX, 0};
+    for (size_t p = 0; p < COUNT(places); p++) {
+        for (size_t k = 0; k < COUNT(kinds); k++) {
+            check_inserted(places[p], kinds[k], 0, LIMN_OK);
+            check_inserted(places[p], kinds[k], LIMN_CHUNK_REQUIRED, LIMN_ERROR_UNKNOWN_CHUNK);
+        }
+    }
+    check_inserted(0, LIMN_CHUNK_TABLES, LIMN_CHUNK_REQUIRED, LIMN_ERROR_UNKNOWN_CHUNK);
+    check_inserted(LIMN_FORMAT_NO_MESH, LIMN_CHUNK_SLOTS, LIMN_CHUNK_REQUIRED,
+                   LIMN_ERROR_UNKNOWN_CHUNK);
+    check_inserted(0, LIMN_CHUNK_SLOTS, LIMN_CHUNK_REQUIRED, LIMN_ERROR_CHUNK);
+    check_inserted(1, LIMN_FORMAT_KIND('A', 'A', 'A', 'A'), 0, LIMN_ERROR_CHUNK);
+}
+
+// ---- Texts, checksum
+
+static void test_result_texts(void) {
+    static const limn_result results[] = {
+#define RESULT(name, text) name,
+        LIMN_RESULTS(RESULT)
+#undef RESULT
+    };
+    const char *const unknown = limn_result_text((limn_result)COUNT(results));
+    CHECK_TEXT(unknown, "not a limn_result");
+    CHECK_TEXT(limn_result_text((limn_result)0x7fffffff), unknown);
+    for (size_t a = 0; a < COUNT(results); a++) {
+        CHECK_EQUAL(results[a], a);
+        CHECK(strlen(limn_result_text(results[a])) > 5);
+        CHECK(strcmp(limn_result_text(results[a]), unknown) != 0);
+        for (size_t b = 0; b < a; b++)
+            CHECK(strcmp(limn_result_text(results[a]), limn_result_text(results[b])) != 0);
+    }
+}
+
+static void test_checksum(void) {
+    // The published value for nothing; the others are compared with the library.
+    CHECK(limni_checksum("", 0) == 0xEF46DB3751D8E999u);
+#ifdef TEST_WITH_XXHASH
+    unsigned char bytes[201 + 3];
+    for (size_t b = 0; b < sizeof bytes; b++)
+        bytes[b] = (unsigned char)(b * 167 + (b >> 3));
+    for (size_t size = 0; size <= 200; size++) {
+        for (size_t offset = 0; offset < 3; offset++)
+            CHECK(limni_checksum(bytes + offset, size) == XXH64(bytes + offset, size, 0));
+    }
+#else
+    printf("built without xxhash: the checksum is not compared\n");
+#endif
+}
+
+int main(void) {
+    make_wheel();
+    test_views();
+    test_sharing();
+    test_sizes();
+    test_alignment();
+    test_headers();
+    test_changed_bytes();
+    test_mended_bytes();
+    test_mended_words((const mesh_case *[]){&tetrahedron, &twin}, 2);
+    test_mended_words((const mesh_case *[]){&strip}, 1);
+    test_damages();
+    test_unknown_chunks();
+    test_result_texts();
+    test_checksum();
+    return check_report();
+}

@@ -1,0 +1,666 @@
+/* SPDX-License-Identifier: MIT */
+/* From polygons to a manifold: what is refused and where, what is mended and how, and triangles. */
+#include "../baker/mesh.h"
+#include "limn/format.h"
+#include "limn/limn.h"
+
+#include "check.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+// ---- Surfaces
+
+/// Every face of an open fan is a class of its own: time grows with the cube of this.
+enum { OPEN_FAN_SIZE = 256 };
+
+typedef struct surface {
+    const char *name;
+    const float *positions;
+    uint32_t position_count;
+    const uint32_t *sizes; ///< NULL: triangles
+    const uint32_t *corners;
+    uint32_t face_count;
+} surface;
+
+/// Points that serve wherever the shape does not matter.
+static const float points[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, -1, 0, 0, 0, -1, 0, 0, 0, -1};
+
+#define TRIANGLES(position_count, ...)                                                             \
+    {                                                                                              \
+        "t", points, position_count, NULL, (const uint32_t[]){__VA_ARGS__},                        \
+            COUNT(((const uint32_t[]){__VA_ARGS__})) / 3                                           \
+    }
+
+/// The rim of a bipyramid is 0 … n - 1, its apexes are n and n + 1. Their valence is n.
+static surface make_bipyramid(uint32_t n) {
+    float *const positions = calloc((size_t)n + 2, 3 * sizeof *positions);
+    uint32_t *const corners = malloc(6 * (size_t)n * sizeof *corners);
+    if (!positions || !corners) abort();
+    for (uint32_t k = 0; k < n; k++) {
+        const double angle = 6.283185307179586 * k / n;
+        const uint32_t next = (k + 1) % n, faces[6] = {k, next, n, next, k, n + 1};
+        positions[3 * k] = (float)cos(angle);
+        positions[3 * k + 1] = (float)sin(angle);
+        memcpy(corners + 6 * k, faces, sizeof faces);
+    }
+    positions[3 * n + 2] = 1;
+    positions[3 * n + 5] = -1;
+    return (surface){"bipyramid", positions, n + 2, NULL, corners, 2 * n};
+}
+
+/// n triangles around vertex 0, from a half turn to the boundary: its valence is n + 1.
+static surface make_open_fan(uint32_t n) {
+    float *const positions = calloc((size_t)n + 2, 3 * sizeof *positions);
+    uint32_t *const corners = malloc(3 * (size_t)n * sizeof *corners);
+    if (!positions || !corners) abort();
+    for (uint32_t k = 0; k <= n; k++) {
+        positions[3 * k + 3] = (float)cos(3.141592653589793 * k / n);
+        positions[3 * k + 4] = (float)sin(3.141592653589793 * k / n);
+    }
+    for (uint32_t k = 0; k < n; k++)
+        memcpy(corners + 3 * k, (const uint32_t[]){0, k + 1, k + 2}, 3 * sizeof *corners);
+    return (surface){"fan", positions, n + 2, NULL, corners, n};
+}
+
+static void free_surface(const surface *made) {
+    free((void *)(uintptr_t)made->positions);
+    free((void *)(uintptr_t)made->corners);
+}
+
+// ---- Baking
+
+typedef struct notes {
+    uint32_t count;
+    char text[2048]; ///< all of them, one per line
+} notes;
+
+static void take_note(void *user, const char *text) {
+    notes *const taken = user;
+    const size_t used = strlen(taken->text);
+    snprintf(taken->text + used, sizeof taken->text - used, "%s\n", text);
+    taken->count++;
+}
+
+typedef struct baked {
+    limn_baker *baker;
+    limn_bake_status status;
+    limn_pack pack; ///< of `status` LIMN_BAKE_OK
+    notes notes;
+} baked;
+
+static void bake(baked *result, const surface *const *surfaces, size_t count, uint32_t repair) {
+    *result = (baked){0};
+    result->baker = limn_baker_create(
+        &(limn_bake_desc){.repair = repair, .note = take_note, .user = &result->notes});
+    if (!result->baker) abort();
+    for (size_t s = 0; s < count && result->status == LIMN_BAKE_OK; s++)
+        result->status = limn_baker_add_mesh(
+            result->baker, &(limn_bake_mesh){.name = surfaces[s]->name,
+                                             .positions = surfaces[s]->positions,
+                                             .position_count = surfaces[s]->position_count,
+                                             .face_sizes = surfaces[s]->sizes,
+                                             .face_count = surfaces[s]->face_count,
+                                             .face_indices = surfaces[s]->corners});
+    if (result->status != LIMN_BAKE_OK) return;
+    const void *blob = NULL;
+    size_t size = 0;
+    result->status = limn_baker_finish(result->baker, &blob, &size);
+    if (result->status == LIMN_BAKE_OK)
+        CHECK_EQUAL(limn_pack_open(&result->pack, blob, size), LIMN_OK);
+}
+
+/// Every row of every table sums to 1 and has no negative coefficient.
+static void check_tables(const limn_mesh *mesh) {
+    const limn_domain *const domain = mesh->domain;
+    const uint32_t stride = domain->padded_row_counts[LIMN_LEVEL_MAX];
+    double furthest = 0;
+    float smallest = 0;
+    for (uint32_t r = 0; r < mesh->run_count; r++) {
+        const limn_file_class *const class = &mesh->classes[mesh->runs[r].class_index];
+        const float *const table = mesh->tables + class->table_offset / sizeof(float);
+        for (uint32_t row = 0; row < domain->row_counts[LIMN_LEVEL_MAX]; row++) {
+            double sum = 0;
+            for (uint32_t slot = 0; slot < class->control_count; slot++) {
+                sum += (double)table[(size_t)slot * stride + row];
+                smallest = fminf(smallest, table[(size_t)slot * stride + row]);
+            }
+            furthest = fmax(furthest, fabs(sum - 1));
+        }
+    }
+    CHECK(furthest < 2e-7);
+    CHECK(smallest == 0);
+}
+
+/// With all control points in one place, so are all vertices, at every level.
+static void check_evaluation(const limn_mesh *mesh) {
+    static const float place[3] = {1, -2, 0.5f};
+    float *const controls = malloc(mesh->control_count * sizeof place);
+    if (!controls) abort();
+    for (uint32_t c = 0; c < mesh->control_count; c++)
+        memcpy(controls + 3 * c, place, sizeof place);
+    for (uint32_t level = 0; level <= LIMN_LEVEL_MAX; level++) {
+        const limn_plan plan = limn_plan_uniform(mesh, level);
+        float(*const vertices)[3] = malloc((size_t)plan.vertex_count * sizeof *vertices);
+        if (!vertices) abort();
+        limn_evaluate(&plan, controls, 0, plan.patch_count, &(limn_output){.vertices = vertices});
+        float furthest = 0;
+        for (uint64_t v = 0; v < plan.vertex_count; v++) {
+            for (int axis = 0; axis < 3; axis++)
+                furthest = fmaxf(furthest, fabsf(vertices[v][axis] - place[axis]));
+        }
+        CHECK(furthest < 3e-6f);
+        free(vertices);
+    }
+    free(controls);
+}
+
+/// Bakes one surface without mistakes; the caller looks at the result and then ends it.
+static limn_mesh check_accepted(baked *result, const surface *given, uint32_t repair) {
+    bake(result, &given, 1, repair);
+    if (!CHECK_EQUAL(result->status, LIMN_BAKE_OK)) {
+        fprintf(stderr, "    %s\n", limn_baker_error(result->baker));
+        return (limn_mesh){0};
+    }
+    CHECK_TEXT(limn_baker_error(result->baker), "");
+    const limn_mesh mesh = limn_pack_mesh(&result->pack, 0);
+    check_tables(&mesh);
+    check_evaluation(&mesh);
+    return mesh;
+}
+
+static void check_refused(const surface *given, uint32_t repair, const char *part) {
+    baked result;
+    bake(&result, &given, 1, repair);
+    CHECK_EQUAL(result.status, LIMN_BAKE_BAD_INPUT);
+    CHECK_CONTAINS(limn_baker_error(result.baker), part);
+    limn_baker_destroy(result.baker);
+}
+
+/// Patches with a corner on a boundary.
+static uint32_t count_boundary_patches(const limn_mesh *mesh) {
+    uint32_t count = 0;
+    for (uint32_t r = 0; r < mesh->run_count; r++) {
+        if (mesh->classes[mesh->runs[r].class_index].boundary_corners)
+            count += mesh->runs[r].patch_count;
+    }
+    return count;
+}
+
+// ---- What is refused
+
+static void test_refused(void) {
+    const struct {
+        surface given;
+        const char *text;
+    } cases[] = {
+        {TRIANGLES(5, 0, 1, 2, 1, 0, 3, 0, 1, 4),
+         "t: non-manifold edge from vertex 0 to vertex 1: 3 faces share it, among them face 0 and "
+         "face 2"},
+        {TRIANGLES(6, 0, 1, 2, 1, 0, 3, 0, 1, 4, 1, 0, 5), ": 4 faces share it"},
+        {TRIANGLES(5, 0, 1, 2, 0, 3, 4), "t: non-manifold vertex 0: face 0 and face 1 meet"},
+        {TRIANGLES(6, 1, 2, 3, 1, 3, 0, 1, 4, 5),
+         "t: non-manifold vertex 1: face 0 and face 2 meet"},
+        {TRIANGLES(4, 0, 1, 2, 0, 1, 3),
+         "t: inconsistent winding: face 0 and face 1 both run from vertex 0 to vertex 1"},
+        {TRIANGLES(4, 0, 2, 1, 0, 1, 3, 1, 3, 2, 2, 0, 3), "inconsistent winding: face 1 and face 2"
+                                                           " both run from vertex 1 to vertex 3"},
+        {TRIANGLES(4, 0, 1, 2, 1, 0, 1), "t: face 1: degenerate face: it uses a vertex twice"},
+        {TRIANGLES(4, 0, 0, 2), "t: face 0: degenerate face"},
+        {TRIANGLES(4, 2, 2, 2), "t: face 0: degenerate face"},
+        {TRIANGLES(4, 0, 1, 2, 1, 0, 3, 1, 2, 0), "t: face 2: repeated face"},
+        {TRIANGLES(3, 0, 1, 3), "t: face 0 refers to vertex 3, but there are 3"},
+        {TRIANGLES(3, 0, 1, 2, 2, 1, UINT32_MAX), "t: face 1 refers to vertex 4294967295"},
+        {{"t", points, 3, NULL, (const uint32_t[]){0, 1, 2}, 0}, "t: the mesh is empty"},
+        {{"t", points, 0, NULL, (const uint32_t[]){0, 1, 2}, 1}, "t: the mesh is empty"},
+        {{"t", points, 3, (const uint32_t[]){3, 2}, (const uint32_t[]){0, 1, 2, 0, 1}, 2},
+         "t: face 1 has 2 corners"},
+        {{NULL, points, 3, NULL, (const uint32_t[]){0, 1, 1}, 1}, "mesh: face 0: degenerate face"},
+    };
+    for (size_t c = 0; c < COUNT(cases); c++)
+        check_refused(&cases[c].given, 0, cases[c].text);
+}
+
+static void test_not_finite(void) {
+    static const float values[] = {NAN, INFINITY, -INFINITY};
+    static const uint32_t corners[] = {0, 1, 2};
+    for (size_t v = 0; v < COUNT(values); v++) {
+        for (uint32_t at = 0; at < 9; at++) {
+            float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+            char text[64];
+            positions[at] = values[v];
+            snprintf(text, sizeof text, "t: vertex %u is not finite", at / 3);
+            check_refused(&(surface){"t", positions, 3, NULL, corners, 1}, LIMN_REPAIR_ALL, text);
+        }
+    }
+}
+
+static void test_nothing_added(void) {
+    const void *blob = NULL;
+    size_t size = 0;
+    limn_baker *const baker = limn_baker_create(NULL);
+    CHECK_TEXT(limn_baker_error(baker), "");
+    CHECK_EQUAL(limn_baker_finish(baker, &blob, &size), LIMN_BAKE_BAD_INPUT);
+    CHECK_CONTAINS(limn_baker_error(baker), "no mesh");
+    CHECK(blob == NULL && size == 0);
+    limn_baker_destroy(baker);
+    limn_baker_destroy(NULL);
+}
+
+// ---- What is accepted
+
+/// Corners of valence 2: a lone triangle, and two back to back, which is closed.
+static void test_valence_2(void) {
+    const surface lone = TRIANGLES(3, 0, 1, 2), pillow = TRIANGLES(3, 0, 1, 2, 0, 2, 1);
+    baked result;
+    limn_mesh mesh = check_accepted(&result, &lone, 0);
+    CHECK_EQUAL(count_boundary_patches(&mesh), 1);
+    limn_baker_destroy(result.baker);
+
+    mesh = check_accepted(&result, &pillow, 0);
+    CHECK_EQUAL(mesh.patch_count, 2);
+    CHECK_EQUAL(result.pack.class_count, 1);
+    CHECK_EQUAL(count_boundary_patches(&mesh), 0);
+    for (uint32_t c = 0; c < 3; c++)
+        CHECK_EQUAL(mesh.classes[0].valences[c], 2);
+    limn_baker_destroy(result.baker);
+}
+
+static void test_high_valence(void) {
+    baked result;
+    const surface closed = make_bipyramid(500);
+    limn_mesh mesh = check_accepted(&result, &closed, 0);
+    CHECK_EQUAL(mesh.patch_count, 1000);
+    CHECK_EQUAL(result.pack.class_count, 1);
+    CHECK(mesh.classes[0].control_count > LIMN_FORMAT_NARROW_SLOTS);
+    CHECK_EQUAL(mesh.classes[0].valences[2], 500);
+    limn_baker_destroy(result.baker);
+    free_surface(&closed);
+
+    const surface open = make_open_fan(OPEN_FAN_SIZE);
+    mesh = check_accepted(&result, &open, 0);
+    CHECK_EQUAL(mesh.patch_count, OPEN_FAN_SIZE);
+    CHECK_EQUAL(count_boundary_patches(&mesh), OPEN_FAN_SIZE);
+    limn_baker_destroy(result.baker);
+    free_surface(&open);
+}
+
+static void test_too_high_valence(void) {
+    const surface closed = make_bipyramid(5000), open = make_open_fan(5000);
+    check_refused(&closed, 0, "bipyramid: vertex 5000 has valence 5000: the corners of face 0");
+    check_refused(&open, 0, "fan: vertex 0 has valence 5001: the corners of face 0");
+    free_surface(&closed);
+    free_surface(&open);
+}
+
+static void test_unused(void) {
+    const surface given = TRIANGLES(7, 1, 2, 3);
+    baked result;
+    const limn_mesh mesh = check_accepted(&result, &given, 0);
+    CHECK_EQUAL(mesh.control_count, 7);
+    CHECK_EQUAL(result.notes.count, 1);
+    CHECK_CONTAINS(result.notes.text, "t: 4 control points are used by no face (the first is "
+                                      "vertex 0)");
+    limn_baker_destroy(result.baker);
+}
+
+static void test_shared_classes(void) {
+    const surface tetrahedron = TRIANGLES(4, 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3);
+    const surface twin = TRIANGLES(5, 4, 2, 3, 3, 2, 1, 1, 2, 4, 1, 4, 3);
+    const surface pillow = TRIANGLES(3, 0, 1, 2, 0, 2, 1);
+    baked one, both, three;
+    bake(&one, (const surface *[]){&tetrahedron}, 1, 0);
+    bake(&both, (const surface *[]){&tetrahedron, &twin}, 2, 0);
+    bake(&three, (const surface *[]){&tetrahedron, &twin, &pillow}, 3, 0);
+    CHECK_EQUAL(one.pack.class_count, 1);
+    CHECK_EQUAL(both.pack.class_count, 1);
+    CHECK_EQUAL(both.pack.mesh_count, 2);
+    CHECK_EQUAL(three.pack.class_count, 2);
+    limn_baker_destroy(one.baker);
+    limn_baker_destroy(both.baker);
+    limn_baker_destroy(three.baker);
+}
+
+// ---- What is mended
+
+/// Counts after a repair, and what the notes must say.
+static void check_repaired(const surface *given, uint32_t repair, uint32_t control_count,
+                           uint32_t patch_count, uint32_t boundary_patches, const char *note) {
+    baked result;
+    const limn_mesh mesh = check_accepted(&result, given, repair);
+    CHECK_EQUAL(mesh.control_count, control_count);
+    CHECK_EQUAL(mesh.patch_count, patch_count);
+    CHECK_EQUAL(count_boundary_patches(&mesh), boundary_patches);
+    CHECK_CONTAINS(result.notes.text, note);
+    limn_baker_destroy(result.baker);
+}
+
+static void test_weld(void) {
+    // A tetrahedron whose faces have nothing in common, with both zeros.
+    static const float loose_positions[] = {
+        0, 0, 0, 0, 1, 0, 1,     0, 0, 0,     -0.0f, 0, 1, 0, -0.0f, 0, 0, 1,
+        1, 0, 0, 0, 1, 0, -0.0f, 0, 1, -0.0f, 1,     0, 0, 0, 0,     0, 0, 1,
+    };
+    static const uint32_t corners[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+    static const surface loose = {"loose", loose_positions, 12, NULL, corners, 4};
+    check_repaired(&loose, 0, 12, 4, 4, "");
+    check_repaired(&loose, LIMN_REPAIR_WELD, 4, 4, 0,
+                   "loose: repaired: 8 control points welded into others");
+    check_repaired(&loose, LIMN_REPAIR_DROP | LIMN_REPAIR_SPLIT, 12, 4, 4, "");
+
+    // Welding may leave a face with a corner twice.
+    static const float flat_positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 1, 1, 0};
+    static const uint32_t flat_corners[] = {0, 1, 2, 1, 3, 2, 1, 4, 3};
+    static const surface flat = {"flat", flat_positions, 5, NULL, flat_corners, 3};
+    check_repaired(&flat, 0, 5, 3, 3, "");
+    check_refused(&flat, LIMN_REPAIR_WELD, "flat: face 1: degenerate face");
+    check_repaired(&flat, LIMN_REPAIR_WELD | LIMN_REPAIR_DROP, 4, 2, 2,
+                   "flat: repaired: 1 degenerate and 0 repeated faces dropped");
+}
+
+static void test_drop(void) {
+    const surface given =
+        TRIANGLES(4, 0, 1, 1, 0, 1, 2, 2, 2, 2, 1, 2, 0, 2, 1, 3, 3, 2, 1, 1, 3, 2);
+    check_refused(&given, LIMN_REPAIR_WELD | LIMN_REPAIR_SPLIT, "t: face 0: degenerate face");
+    check_repaired(&given, LIMN_REPAIR_DROP, 4, 2, 2,
+                   "t: repaired: 2 degenerate and 3 repeated faces dropped");
+
+    const surface hopeless = TRIANGLES(4, 0, 1, 1, 2, 2, 2);
+    check_refused(&hopeless, LIMN_REPAIR_ALL, "t: the mesh has no faces");
+}
+
+/// A polygon that only repeats a corner is mended, not dropped, and that is said too.
+static void test_repeated_corners(void) {
+    static const uint32_t sizes[] = {4, 5, 4}, corners[] = {0, 0, 1, 2, 0, 2, 2, 3, 3, 3, 3, 4, 4};
+    static const surface given = {"t", points, 5, sizes, corners, 3};
+    check_refused(&given, 0, "t: face 0: degenerate face");
+    check_repaired(&given, LIMN_REPAIR_DROP, 5, 2, 2, "t: repaired: ");
+
+    static const uint32_t only_sizes[] = {4}, only_corners[] = {1, 2, 3, 1};
+    static const surface only = {"t", points, 4, only_sizes, only_corners, 1};
+    check_repaired(&only, LIMN_REPAIR_DROP, 4, 1, 1, "t: repaired: ");
+}
+
+static void test_split_open(void) {
+    const surface bow_tie = TRIANGLES(5, 0, 1, 2, 0, 3, 4);
+    check_repaired(&bow_tie, LIMN_REPAIR_SPLIT, 6, 2, 2, "t: repaired: 1 control points added");
+
+    const surface book = TRIANGLES(5, 0, 1, 2, 1, 0, 3, 0, 1, 4);
+    check_repaired(&book, LIMN_REPAIR_SPLIT, 9, 3, 3, "t: repaired: 4 control points added");
+
+    const surface wound = TRIANGLES(4, 0, 1, 2, 0, 1, 3);
+    check_repaired(&wound, LIMN_REPAIR_SPLIT, 6, 2, 2, "t: repaired: 2 control points added");
+
+    // A Möbius strip of five triangles cannot be wound consistently.
+    const surface strip = TRIANGLES(5, 0, 1, 2, 2, 1, 3, 2, 3, 4, 4, 3, 0, 4, 0, 1);
+    check_refused(&strip, LIMN_REPAIR_WELD | LIMN_REPAIR_DROP, "t: inconsistent winding");
+    check_repaired(&strip, LIMN_REPAIR_SPLIT, 7, 5, 5, "t: repaired: 2 control points added");
+}
+
+/// Cutting off what is too much leaves the rest closed.
+static void test_split_closed(void) {
+    // A bipyramid over a triangle with one face too many, in both directions and on both kinds of
+    // edge, so that patches begin at either end of the edge that was cut.
+    static const uint32_t flaps[][3] = {{1, 3, 5}, {3, 1, 5}, {0, 1, 5}, {1, 0, 5}, {5, 4, 2}};
+    for (size_t f = 0; f < COUNT(flaps); f++) {
+        uint32_t corners[] = {0, 1, 3, 1, 2, 3, 2, 0, 3, 1, 0, 4, 2, 1, 4, 0, 2, 4, 0, 0, 0};
+        memcpy(corners + 18, flaps[f], sizeof flaps[f]);
+        const surface given = {"flap", points, 6, NULL, corners, 7};
+        check_refused(&given, 0, "flap: non-manifold edge from vertex ");
+        check_repaired(&given, LIMN_REPAIR_SPLIT, 8, 7, 1,
+                       "flap: repaired: 2 control points added");
+    }
+    // Two tetrahedra with a common edge; two with a common vertex.
+    const surface edge =
+        TRIANGLES(6, 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3, 0, 5, 1, 0, 1, 4, 1, 5, 4, 5, 0, 4);
+    check_refused(&edge, 0, ": 4 faces share it");
+    check_repaired(&edge, LIMN_REPAIR_SPLIT, 8, 8, 0, "t: repaired: 2 control points added");
+    const surface vertex =
+        TRIANGLES(7, 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3, 0, 5, 4, 0, 4, 6, 4, 5, 6, 5, 0, 6);
+    check_refused(&vertex, 0, "t: non-manifold vertex 0: face 0 and face 4 meet");
+    check_repaired(&vertex, LIMN_REPAIR_SPLIT, 8, 8, 0, "t: repaired: 1 control points added");
+}
+
+/// A control point made by splitting has no number and no line of its own in the file.
+static void test_split_too_high_valence(void) {
+    const surface fan = make_open_fan(3000);
+    uint32_t *const corners = malloc(3 * 3001 * sizeof *corners);
+    float *const positions = calloc(3004, 3 * sizeof *positions);
+    if (!corners || !positions) abort();
+    memcpy(positions, fan.positions, 3002 * 3 * sizeof *positions);
+    memcpy(corners, (const uint32_t[]){0, 3002, 3003}, 3 * sizeof *corners);
+    memcpy(corners + 3, fan.corners, 3 * 3000 * sizeof *corners);
+    const surface both = {"both", positions, 3004, NULL, corners, 3001};
+    check_refused(&both, LIMN_REPAIR_SPLIT, " has valence 3001: the corners of face 1");
+    free_surface(&both);
+    free_surface(&fan);
+}
+
+/// What the repairs say they can do, they do: any faces at all become a surface that evaluates.
+static void test_repair_anything(void) {
+    uint64_t state = 7;
+    for (uint32_t round = 0; round < 300; round++) {
+        const uint32_t face_count = 1 + round % 24, point_count = 4 + round % 4;
+        uint32_t corners[3 * 24];
+        for (uint32_t c = 0; c < 3 * face_count; c++) {
+            state = state * 6364136223846793005u + 1442695040888963407u;
+            corners[c] = (uint32_t)(state >> 33) % point_count;
+        }
+        const surface given = {"any", points, point_count, NULL, corners, face_count},
+                      *any = &given;
+        baked result;
+        bake(&result, &any, 1, LIMN_REPAIR_ALL);
+        if (result.status == LIMN_BAKE_OK) {
+            const limn_mesh mesh = limn_pack_mesh(&result.pack, 0);
+            check_tables(&mesh);
+            check_evaluation(&mesh);
+        } else {
+            CHECK_TEXT(limn_baker_error(result.baker), "any: the mesh has no faces");
+        }
+        limn_baker_destroy(result.baker);
+    }
+}
+
+// ---- Triangulation
+
+/// The source as a reader would give it.
+static void build(limni_context *context, const surface *given, limni_mesh *mesh) {
+    uint32_t corner_count = 0;
+    limni_source source = {
+        .name = given->name,
+        .positions = limni_allocate(context, given->position_count, 3 * sizeof(float)),
+        .position_count = given->position_count,
+        .face_count = given->face_count,
+        .face_offsets = limni_allocate(context, (size_t)given->face_count + 1, sizeof(uint32_t)),
+    };
+    for (uint32_t face = 0; face < given->face_count; face++) {
+        source.face_offsets[face] = corner_count;
+        corner_count += given->sizes ? given->sizes[face] : 3;
+    }
+    source.face_offsets[given->face_count] = corner_count;
+    source.face_corners = limni_allocate(context, corner_count, sizeof(uint32_t));
+    memcpy(source.face_corners, given->corners, corner_count * sizeof(uint32_t));
+    memcpy(source.positions, given->positions, given->position_count * 3 * sizeof(float));
+    *mesh = (limni_mesh){0};
+    if (!CHECK_EQUAL(limni_mesh_build(context, &source, mesh), LIMN_BAKE_OK))
+        fprintf(stderr, "    %s\n", context->error);
+}
+
+static bool has_edge(const limni_mesh *mesh, uint32_t a, uint32_t b) {
+    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
+        const uint32_t start = limni_half_edge_start(mesh, h), end = limni_half_edge_end(mesh, h);
+        if ((start == a && end == b) || (start == b && end == a)) return true;
+    }
+    return false;
+}
+
+/// The one diagonal of a quad.
+static void check_diagonal(const float *positions, const uint32_t corners[4], uint32_t a,
+                           uint32_t b) {
+    static const uint32_t sizes[] = {4};
+    limni_context context = {0};
+    limni_mesh mesh;
+    build(&context, &(surface){"quad", positions, 4, sizes, corners, 1}, &mesh);
+    CHECK_EQUAL(mesh.face_count, 2);
+    if (!CHECK(has_edge(&mesh, a, b))) fprintf(stderr, "    no edge %u-%u\n", a, b);
+    limni_release_all(&context);
+}
+
+static void test_quads(void) {
+    static const float kite[] = {-1, 0, 0, 0, -3, 0, 1, 0, 0, 0, 3, 0};
+    static const float square[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    static const float crossed[] = {0, 0, 0, 1, 1, 0, 1, 0, 0, 0, 1, 0};
+    static const float last[] = {0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0};
+    for (uint32_t shift = 0; shift < 4; shift++) {
+        uint32_t forward[4], backward[4], other[4], third[4];
+        for (uint32_t c = 0; c < 4; c++) {
+            forward[c] = (c + shift) % 4;
+            backward[c] = (3 + shift - c) % 4;
+            other[c] = (const uint32_t[]){0, 2, 1, 3}[(c + shift) % 4];
+            third[c] = (const uint32_t[]){0, 2, 3, 1}[(c + shift) % 4];
+        }
+        check_diagonal(kite, forward, 0, 2);
+        check_diagonal(kite, backward, 0, 2);
+        // Ties go to the diagonal with the smallest control point.
+        check_diagonal(square, forward, 0, 2);
+        check_diagonal(square, backward, 0, 2);
+        check_diagonal(crossed, other, 0, 1);
+        check_diagonal(last, third, 0, 3);
+    }
+}
+
+/// Twice the area of a triangle in the plane of two axes.
+static double area_of(const limni_mesh *mesh, uint32_t face, int u, int v) {
+    const float *const a = mesh->controls[mesh->faces[face][0]];
+    const float *const b = mesh->controls[mesh->faces[face][1]];
+    const float *const c = mesh->controls[mesh->faces[face][2]];
+    return ((double)b[u] - a[u]) * ((double)c[v] - a[v]) -
+           ((double)b[v] - a[v]) * ((double)c[u] - a[u]);
+}
+
+/// A plane polygon, counter-clockwise: no triangle is turned over, and together they cover it.
+/// Tried in all three planes and from every corner.
+static void check_polygon(const float (*plane)[2], uint32_t size, double twice_area) {
+    for (uint32_t variant = 0; variant < 3 * size; variant++) {
+        const int u = (int)(variant % 3), v = (u + 1) % 3;
+        float positions[16][3] = {0};
+        uint32_t corners[16];
+        for (uint32_t c = 0; c < size; c++) {
+            positions[c][u] = plane[c][0];
+            positions[c][v] = plane[c][1];
+            corners[c] = (c + variant / 3) % size;
+        }
+        limni_context context = {0};
+        limni_mesh mesh;
+        build(&context, &(surface){"polygon", positions[0], size, &size, corners, 1}, &mesh);
+        CHECK_EQUAL(mesh.face_count, size - 2);
+        double sum = 0;
+        for (uint32_t face = 0; face < mesh.face_count; face++) {
+            CHECK(area_of(&mesh, face, u, v) > 0);
+            CHECK_EQUAL(mesh.polygons[face], 0);
+            sum += area_of(&mesh, face, u, v);
+        }
+        CHECK_NEAR(sum, twice_area, 1e-9);
+        limni_release_all(&context);
+    }
+}
+
+static void test_polygons(void) {
+    static const float house[][2] = {{0, 0}, {2, 0}, {2, 2}, {1, 3}, {0, 2}};
+    static const float corner[][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+    static const float comb[][2] = {{0, 0}, {5, 0}, {5, 4}, {4, 4}, {4, 1}, {3, 1},
+                                    {3, 4}, {2, 4}, {2, 1}, {1, 1}, {1, 4}, {0, 4}};
+    static const float star[][2] = {{4, 0},  {1, 1},   {0, 4},  {-1, 1},
+                                    {-4, 0}, {-1, -1}, {0, -4}, {1, -1}};
+    check_polygon(house, COUNT(house), 10);
+    check_polygon(corner, COUNT(corner), 6);
+    check_polygon(comb, COUNT(comb), 28);
+    check_polygon(star, COUNT(star), 32);
+
+    // The shortest diagonal comes first: the roof of the house.
+    static const float roof[] = {0, 0, 0, 2, 0, 0, 2, 2, 0, 1, 3, 0, 0, 2, 0};
+    static const uint32_t size = 5, corners[] = {0, 1, 2, 3, 4};
+    limni_context context = {0};
+    limni_mesh mesh;
+    build(&context, &(surface){"house", roof, 5, &size, corners, 1}, &mesh);
+    CHECK(has_edge(&mesh, 2, 4));
+    CHECK(has_edge(&mesh, 0, 2));
+    limni_release_all(&context);
+}
+
+/// Two quads that share two edges round vertex 0: the short diagonal 1-2 is in both, but can be
+/// cut only once.
+static void test_existing_edges(void) {
+    static const float positions[] = {0, 0, 1, -1, 0, 0, 1, 0, 0, 0, 5, 0, 0, -5, 0};
+    static const uint32_t sizes[] = {4, 4}, corners[] = {1, 0, 2, 3, 2, 0, 1, 4};
+    const surface given = {"hinge", positions, 5, sizes, corners, 2};
+    limni_context context = {0};
+    limni_mesh mesh;
+    build(&context, &given, &mesh);
+    CHECK_EQUAL(mesh.face_count, 4);
+    CHECK(has_edge(&mesh, 1, 2));
+    CHECK(has_edge(&mesh, 0, 4));
+    CHECK(!has_edge(&mesh, 0, 3));
+    limni_release_all(&context);
+
+    // The same with a triangle that has that edge already.
+    static const uint32_t mixed_sizes[] = {4, 3}, mixed[] = {1, 0, 2, 3, 2, 0, 1};
+    build(&context, &(surface){"mixed", positions, 5, mixed_sizes, mixed, 2}, &mesh);
+    CHECK(has_edge(&mesh, 0, 3));
+    limni_release_all(&context);
+
+    baked result;
+    const limn_mesh baked_mesh = check_accepted(&result, &given, 0);
+    CHECK_EQUAL(baked_mesh.patch_count, 4);
+    limn_baker_destroy(result.baker);
+}
+
+static void test_triangulation_notes(void) {
+    static const float positions[] = {0, 0, 0, 1, 0,    0, 1, 1,  0, 0, 1,  0, 2, 0,
+                                      0, 2, 1, 0, 0.5f, 2, 0, -1, 0, 0, -1, 1, 0};
+    static const uint32_t sizes[] = {4, 3, 4, 4, 3};
+    static const uint32_t corners[] = {0, 1, 2, 3, 3, 2, 6, 1, 4, 5, 2, 7, 0, 3, 8, 2, 5, 6};
+    static const uint32_t joined_sizes[] = {4, 5, 6},
+                          joined[] = {0, 1, 2, 3, 1, 4, 5, 6, 2, 7, 0, 3, 2, 6, 8};
+    baked result;
+    check_accepted(&result, &(surface){"quads", positions, 9, sizes, corners, 5}, 0);
+    CHECK_EQUAL(result.notes.count, 1);
+    CHECK_CONTAINS(result.notes.text, "quads: triangulated 3 quads and 0 larger polygons: 5 faces "
+                                      "became 8");
+    limn_baker_destroy(result.baker);
+
+    check_accepted(&result, &(surface){"mixed", positions, 9, joined_sizes, joined, 3}, 0);
+    CHECK_CONTAINS(result.notes.text, "mixed: triangulated 1 quads and 2 larger polygons: 3 faces "
+                                      "became 9");
+    limn_baker_destroy(result.baker);
+
+    const surface triangle = TRIANGLES(3, 0, 1, 2);
+    check_accepted(&result, &triangle, LIMN_REPAIR_ALL);
+    CHECK_TEXT(result.notes.text, "");
+    limn_baker_destroy(result.baker);
+}
+
+int main(void) {
+    test_refused();
+    test_not_finite();
+    test_nothing_added();
+    test_valence_2();
+    test_high_valence();
+    test_too_high_valence();
+    test_unused();
+    test_shared_classes();
+    test_weld();
+    test_drop();
+    test_repeated_corners();
+    test_split_open();
+    test_split_closed();
+    test_split_too_high_valence();
+    test_repair_anything();
+    test_quads();
+    test_polygons();
+    test_existing_edges();
+    test_triangulation_notes();
+    return check_report();
+}

@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Bitwise watertight: for every mesh, level and kernel, every vertex that two patches share has the
+ * same bits in both. And the tables: rows sum to 1 and have no negative coefficient.
+ */
+#include "../baker/mesh.h"
+#include "check.h"
+#include "limn/format.h"
+#include "limn/limn.h"
+#include "mesh_files.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/// A mesh twice: as the baker connects it, and baked.
+typedef struct subject {
+    const char *path;
+    limni_context context;
+    limni_mesh mesh; ///< for its half-edge pairs
+    limn_baker *baker;
+    limn_pack pack;
+    limn_mesh baked;
+    uint32_t *patches; ///< [face_count] the patch of each face
+} subject;
+
+static unsigned long long total_vertices, total_meshes, refused_meshes;
+
+static bool load(subject *s, const char *path, uint32_t repair, limn_weights weights) {
+    const limn_bake_desc desc = {.repair = repair, .weights = weights};
+    const void *blob;
+    size_t size;
+    *s = (subject){.path = path, .context = {.desc = desc}, .baker = limn_baker_create(&desc)};
+    if (limn_baker_add_file(s->baker, path) != LIMN_BAKE_OK) return false;
+    CHECK_EQUAL(limn_baker_finish(s->baker, &blob, &size), LIMN_BAKE_OK);
+    CHECK_EQUAL(limn_pack_open(&s->pack, blob, size), LIMN_OK);
+    s->baked = limn_pack_mesh(&s->pack, 0);
+
+    limni_source source = {0};
+    CHECK_EQUAL(limni_read_file(&s->context, path, &source), LIMN_BAKE_OK);
+    CHECK_EQUAL(limni_mesh_build(&s->context, &source, &s->mesh), LIMN_BAKE_OK);
+    CHECK_EQUAL(s->mesh.face_count, s->baked.patch_count);
+    s->patches = limni_allocate(&s->context, s->mesh.face_count, sizeof *s->patches);
+    for (uint32_t patch = 0; patch < s->baked.patch_count; patch++)
+        s->patches[limn_mesh_face(&s->baked, patch).face] = patch;
+    return true;
+}
+
+static void unload(subject *s) {
+    limni_release_all(&s->context);
+    limn_baker_destroy(s->baker);
+}
+
+/// The rows of the patch along half-edge h, in its direction.
+static const uint16_t *rows_along(const subject *s, uint32_t h) {
+    const limn_patch_face face = limn_mesh_face(&s->baked, s->patches[h / 3]);
+    return s->baked.domain->edge_rows[(h % 3 + 3 - face.rotation) % 3];
+}
+
+/// How many vertices on shared edges differ in any bit.
+static uint64_t count_differences(const subject *s, uint32_t level, const float (*vertices)[3]) {
+    const uint32_t row_count = s->baked.domain->row_counts[level];
+    const uint32_t step = LIMN_GRID_SIZE >> level;
+    uint64_t differences = 0;
+    for (uint32_t h = 0; h < 3 * s->mesh.face_count; h++) {
+        const uint32_t pair = s->mesh.pairs[h];
+        if (pair == LIMNI_NONE || pair < h) continue;
+        const uint16_t *const along = rows_along(s, h), *const against = rows_along(s, pair);
+        const float(*const a)[3] = vertices + (size_t)s->patches[h / 3] * row_count;
+        const float(*const b)[3] = vertices + (size_t)s->patches[pair / 3] * row_count;
+        for (uint32_t t = 0; t <= LIMN_GRID_SIZE; t += step) {
+            differences += memcmp(a[along[t]], b[against[LIMN_GRID_SIZE - t]], sizeof *a) != 0;
+            total_vertices++;
+        }
+    }
+    return differences;
+}
+
+static uint64_t evaluate_and_count(subject *s, const limn_kernels *kernels, uint32_t level,
+                                   float (*vertices)[3]) {
+    s->baked.kernels = kernels;
+    const limn_plan plan = limn_plan_uniform(&s->baked, level);
+    limn_evaluate(&plan, s->baked.controls, 0, plan.patch_count,
+                  &(limn_output){.vertices = vertices});
+    return count_differences(s, level, (const float(*)[3])vertices);
+}
+
+static void check_mesh(subject *s) {
+    const limn_plan largest = limn_plan_uniform(&s->baked, LIMN_LEVEL_MAX);
+    float(*const first)[3] = malloc((size_t)largest.vertex_count * sizeof *first);
+    float(*const other)[3] = malloc((size_t)largest.vertex_count * sizeof *other);
+    for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
+        const limn_plan plan = limn_plan_uniform(&s->baked, level);
+        const limn_kernels *const scalar =
+            limn_kernels_select(LIMN_ISA_SCALAR, LIMN_FAMILY_REPRODUCIBLE);
+        CHECK_EQUAL(evaluate_and_count(s, scalar, level, first), 0u);
+        for (uint32_t isa = LIMN_ISA_SCALAR << 1; isa <= limn_isa_supported(); isa <<= 1) {
+            if (!(limn_isa_supported() & isa)) continue;
+            const limn_kernels *const fast = limn_kernels_select(isa, LIMN_FAMILY_FAST);
+            CHECK_EQUAL(evaluate_and_count(s, fast, level, other), 0u);
+            const limn_kernels *const same = limn_kernels_select(isa, LIMN_FAMILY_REPRODUCIBLE);
+            CHECK_EQUAL(evaluate_and_count(s, same, level, other), 0u);
+            CHECK(memcmp(first, other, (size_t)plan.vertex_count * sizeof *first) == 0);
+        }
+    }
+    free(first);
+    free(other);
+}
+
+static void check_tables(const limn_pack *pack, const limn_mesh *mesh) {
+    for (uint32_t c = 0; c < pack->class_count; c++) {
+        const limn_file_class *const class = &mesh->classes[c];
+        const float *const table = mesh->tables + class->table_offset / sizeof(float);
+        for (uint32_t row = 0; row < 153; row++) {
+            double sum = 0;
+            for (uint32_t slot = 0; slot < class->control_count; slot++) {
+                CHECK(table[slot * 160 + row] >= 0);
+                sum += (double)table[slot * 160 + row];
+            }
+            // Rounding to float moves each coefficient by at most 2^-24 of itself, and they sum
+            // to 1.
+            CHECK_NEAR(sum, 1.0, 0x1p-24);
+        }
+    }
+}
+
+static void visit(const char *path) {
+    subject s;
+    bool loaded = load(&s, path, 0, LIMN_WEIGHTS_LOOP);
+    if (!loaded) {
+        refused_meshes++;
+        unload(&s);
+        loaded = load(&s, path, LIMN_REPAIR_ALL, LIMN_WEIGHTS_LOOP);
+    }
+    if (CHECK(loaded)) {
+        total_meshes++;
+        check_mesh(&s);
+        check_tables(&s.pack, &s.baked);
+    } else {
+        fprintf(stderr, "    %s: %s\n", path, limn_baker_error(s.baker));
+    }
+    unload(&s);
+}
+
+static void test_warren(const char *path) {
+    subject s;
+    if (CHECK(load(&s, path, 0, LIMN_WEIGHTS_WARREN))) {
+        check_mesh(&s);
+        check_tables(&s.pack, &s.baked);
+    }
+    unload(&s);
+}
+
+/// Puts the control points of every patch in slot order: what watertightness depends on is undone.
+static void shuffle(const subject *s, uint32_t *indices, uint8_t *slots) {
+    for (uint32_t r = 0; r < s->baked.run_count; r++) {
+        const limn_file_run *const run = &s->baked.runs[r];
+        const uint32_t count = s->baked.classes[run->class_index].control_count;
+        for (uint32_t p = 0; p < run->patch_count; p++) {
+            const size_t base = (size_t)run->first_index + (size_t)p * count;
+            for (uint32_t k = 0; k < count; k++) {
+                indices[base + s->baked.slots[base + k]] = s->baked.indices[base + k];
+                slots[base + k] = (uint8_t)k;
+            }
+        }
+    }
+}
+
+/// This test must be able to fail: without the ascending order, shared vertices do differ.
+static void test_order_matters(const char *path) {
+    subject s;
+    if (!CHECK(load(&s, path, 0, LIMN_WEIGHTS_LOOP))) return;
+    const limn_plan plan = limn_plan_uniform(&s.baked, LIMN_LEVEL_MAX);
+    const limn_file_run *const last = &s.baked.runs[s.baked.run_count - 1];
+    const size_t index_count =
+        (size_t)last->first_index +
+        (size_t)last->patch_count * s.baked.classes[last->class_index].control_count;
+    float(*const vertices)[3] = malloc((size_t)plan.vertex_count * sizeof *vertices);
+    uint32_t *const indices = malloc(index_count * sizeof *indices);
+    uint8_t *const slots = malloc(index_count);
+    shuffle(&s, indices, slots);
+    s.baked.indices = indices;
+    s.baked.slots = slots;
+    const uint64_t differences = evaluate_and_count(&s, s.pack.kernels, LIMN_LEVEL_MAX, vertices);
+    printf("control points in slot order: %llu shared vertices differ\n",
+           (unsigned long long)differences);
+    CHECK(differences > 0);
+    free(vertices);
+    free(indices);
+    free(slots);
+    unload(&s);
+}
+
+int main(void) {
+    char path[4096];
+    CHECK(mesh_files_visit(visit) > 0);
+    printf("%llu meshes (%llu of them repaired), %llu shared vertices compared\n", total_meshes,
+           refused_meshes, total_vertices);
+    snprintf(path, sizeof path, "%s/imp.obj", getenv("LIMN_ASSETS"));
+    test_warren(path);
+    test_order_matters(path);
+    return check_report();
+}

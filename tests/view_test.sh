@@ -1,0 +1,134 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Draws small pictures and makes mistakes on purpose.
+#
+# usage: view_test.sh LIMN_VIEW FILE.limn OUTPUT_FOLDER
+set -u
+
+if [ $# -ne 3 ]; then
+    echo "usage: $0 LIMN_VIEW FILE.limn OUTPUT_FOLDER" >&2
+    exit 2
+fi
+view=$1
+file=$2
+folder=$3
+failures=0
+
+# Never touch what somebody else keeps in the folder: everything happens in one of our own.
+mkdir -p "$folder" || exit 1
+folder=$(mktemp -d "$folder/view_test.XXXXXX") || exit 1
+
+# OSMesa keeps a few hundred bytes for itself until the process ends.
+echo "leak:libOSMesa" >"$folder/leaks"
+export LSAN_OPTIONS="suppressions=$folder/leaks:print_suppressions=0"
+
+fail() {
+    echo "FAILED: $*" >&2
+    failures=$((failures + 1))
+}
+
+# Bytes [$2, $2 + $3) of file $1 in decimal, separated by single spaces.
+bytes() {
+    od -An -v -tu1 -j "$2" -N "$3" "$1" | tr -s ' \n' ' ' | sed 's/^ //; s/ $//'
+}
+
+# expect_picture NAME WIDTH HEIGHT OPTION...: a PNG of that size that is the same when made again.
+expect_picture() {
+    name=$1
+    width=$2
+    height=$3
+    shift 3
+    picture=$folder/$name.png
+    again=$folder/$name.again.png
+    "$view" "$file" --png "$picture" --size "${width}x$height" "$@" || {
+        fail "$name: exit status $?"
+        return
+    }
+    "$view" "$file" --png "$again" --size "${width}x$height" "$@" || fail "$name: second picture"
+    cmp -s "$picture" "$again" || fail "$name: two runs differ"
+
+    # The signature, then the first chunk: width and height are its first two big-endian numbers.
+    header="137 80 78 71 13 10 26 10 0 0 0 13 73 72 68 82"
+    size="$((width >> 24)) $((width >> 16 & 255)) $((width >> 8 & 255)) $((width & 255))"
+    size="$size $((height >> 24)) $((height >> 16 & 255)) $((height >> 8 & 255)) $((height & 255))"
+    [ "$(bytes "$picture" 0 24)" = "$header $size" ] || fail "$name: not a PNG of ${width}x$height"
+    # A uniform picture compresses to almost nothing, the background alone to a few bytes a row.
+    [ "$(wc -c <"$picture")" -gt $((height * 10)) ] || fail "$name: nothing to be seen in it"
+}
+
+# expect_different NAME NAME: the options between them do something.
+expect_different() {
+    if cmp -s "$folder/$1.png" "$folder/$2.png"; then fail "$1 and $2 are the same picture"; fi
+}
+
+# expect_error STATUS ARGUMENT...: that status, words on stderr, nothing on stdout, and no file;
+# OUT among the arguments is where the picture would go.
+expect_error() {
+    status=$1
+    shift
+    rm -rf "$folder/error"
+    mkdir "$folder/error"
+    "$view" "$@" >"$folder/stdout" 2>"$folder/stderr"
+    actual=$?
+    [ $actual -eq "$status" ] || fail "'$*': exit status $actual instead of $status"
+    [ -s "$folder/stderr" ] || fail "'$*': no message"
+    [ ! -s "$folder/stdout" ] || fail "'$*': words on stdout"
+    [ -z "$(ls -A "$folder/error")" ] || fail "'$*': left a file behind"
+}
+
+expect_picture shaded 160 120
+expect_picture level_0 160 120 --level 0
+expect_picture wireframe 160 120 --wireframe --level 2
+expect_picture control_mesh 160 120 --control-mesh
+expect_picture everything 161 97 --wireframe --control-mesh --level 1 --mesh 0
+expect_picture tall 60 240
+expect_different shaded level_0
+expect_different shaded wireframe
+expect_different shaded control_mesh
+
+out=$folder/error/out.png
+head -c 1000 "$file" >"$folder/truncated.limn"
+size=$(wc -c <"$file")
+head -c $((size - 1)) "$file" >"$folder/one_byte_short.limn"
+: >"$folder/empty.limn"
+expect_error 1 "$folder/missing.limn" --png "$out"
+expect_error 1 "$folder/truncated.limn" --png "$out"
+expect_error 1 "$folder/one_byte_short.limn" --png "$out"
+expect_error 1 "$folder/empty.limn" --png "$out"
+expect_error 1 "$folder" --png "$out"
+expect_error 1 "$0" --png "$out"
+expect_error 1 "$file" --png "$out" --mesh 1000000
+expect_error 1 "$file" --png "$folder/error/no_folder/out.png"
+expect_error 1 "$file" --png "$folder"
+[ -c /dev/null ] || fail "/dev/null was replaced"
+
+expect_error 2
+expect_error 2 "$file"
+expect_error 2 --png "$out"
+expect_error 2 "$file" --png
+expect_error 2 "$file" --png ""
+expect_error 2 "$file" "$file" --png "$out"
+expect_error 2 "$file" --png "$out" --unknown
+for level in 5 -1 1x x "" 4294967296 18446744073709551617; do
+    expect_error 2 "$file" --png "$out" --level "$level"
+done
+for pixels in 0x10 10x0 10 10x 10x10x10 x10 8193x10 10x8193 -1x10 "10 x10" 4294967297x10 ""; do
+    expect_error 2 "$file" --png "$out" --size "$pixels"
+done
+for mesh in -1 x 0x "" 4294967296; do
+    expect_error 2 "$file" --png "$out" --mesh "$mesh"
+done
+
+# A failure leaves an older picture as it was.
+cp "$folder/shaded.png" "$folder/kept.png"
+"$view" "$folder/truncated.limn" --png "$folder/kept.png" 2>/dev/null
+cmp -s "$folder/shaded.png" "$folder/kept.png" || fail "a failure damaged an older picture"
+
+"$view" --help | grep -q -e --control-mesh || fail "--help"
+"$view" --version | grep -q '^limn-view [0-9]*\.[0-9]*\.[0-9]*$' || fail "--version"
+
+if [ $failures -gt 0 ]; then
+    echo "$failures failures; see $folder" >&2
+    exit 1
+fi
+rm -rf "$folder"
