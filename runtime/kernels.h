@@ -9,6 +9,19 @@
 #include "limn/format.h"
 #include "limn/limn.h"
 
+#if defined(__GNUC__)
+#define LIMNI_NOINLINE __attribute__((noinline))
+#else
+#define LIMNI_NOINLINE
+#endif
+
+/// Before a loop over the vectors of a tile: unrolled early, so that its arrays become registers.
+#if defined(__GNUC__) && !defined(__clang__)
+#define LIMNI_UNROLL _Pragma("GCC unroll 8")
+#else
+#define LIMNI_UNROLL
+#endif
+
 /// The largest padded row count of any domain.
 #define LIMNI_ROW_MAX 160
 

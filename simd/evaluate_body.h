@@ -9,7 +9,7 @@
  */
 #include "../runtime/kernels.h"
 
-/// Positions of one patch: structure of arrays, in L1.
+/// Positions of one patch, relative to the origin: structure of arrays, in L1.
 typedef struct positions {
     _Alignas(64) float axes[3][LIMNI_ROW_MAX];
 } positions;
@@ -21,7 +21,6 @@ typedef struct patch {
     size_t control_count;
     const void *slots;
     const float (*points)[3]; ///< relative to the origin, in the order of the slots
-    const float *origin;
 } patch;
 
 static inline const float *column_of(const patch *p, uint32_t slot_size, size_t k) {
@@ -35,6 +34,7 @@ static inline const float *column_of(const patch *p, uint32_t slot_size, size_t 
 static inline void evaluate_tile(const patch *p, uint32_t slot_size, size_t first_row,
                                  int vector_count, positions *out) {
     lanes x[LANES_TILE], y[LANES_TILE], z[LANES_TILE];
+    LIMNI_UNROLL
     for (int v = 0; v < vector_count; v++)
         x[v] = y[v] = z[v] = lanes_zero();
     for (size_t k = 0; k < p->control_count; k++) {
@@ -42,6 +42,7 @@ static inline void evaluate_tile(const patch *p, uint32_t slot_size, size_t firs
         const lanes px = lanes_splat(p->points[k][0]);
         const lanes py = lanes_splat(p->points[k][1]);
         const lanes pz = lanes_splat(p->points[k][2]);
+        LIMNI_UNROLL
         for (int v = 0; v < vector_count; v++) {
             const lanes coefficient = lanes_load(column + v * LANES_WIDTH);
             x[v] = lanes_multiply_add(coefficient, px, x[v]);
@@ -49,14 +50,12 @@ static inline void evaluate_tile(const patch *p, uint32_t slot_size, size_t firs
             z[v] = lanes_multiply_add(coefficient, pz, z[v]);
         }
     }
-    const lanes ox = lanes_splat(p->origin[0]);
-    const lanes oy = lanes_splat(p->origin[1]);
-    const lanes oz = lanes_splat(p->origin[2]);
+    LIMNI_UNROLL
     for (int v = 0; v < vector_count; v++) {
         const size_t row = first_row + (size_t)v * LANES_WIDTH;
-        lanes_store(&out->axes[0][row], lanes_add(x[v], ox));
-        lanes_store(&out->axes[1][row], lanes_add(y[v], oy));
-        lanes_store(&out->axes[2][row], lanes_add(z[v], oz));
+        lanes_store(&out->axes[0][row], x[v]);
+        lanes_store(&out->axes[1][row], y[v]);
+        lanes_store(&out->axes[2][row], z[v]);
     }
 }
 
@@ -85,14 +84,12 @@ static inline lanes evaluate_long_sums(const patch *p, uint32_t slot_size, size_
 static inline void evaluate_long_patch(const patch *p, uint32_t slot_size, size_t row_count,
                                        positions *out) {
     for (int axis = 0; axis < 3; axis++) {
-        const lanes origin = lanes_splat(p->origin[axis]);
         for (size_t row = 0; row < row_count; row += LANES_WIDTH)
-            lanes_store(&out->axes[axis][row],
-                        lanes_add(evaluate_long_sums(p, slot_size, row, axis), origin));
+            lanes_store(&out->axes[axis][row], evaluate_long_sums(p, slot_size, row, axis));
     }
 }
 
-static inline void evaluate_patch(const patch *p, uint32_t slot_size, size_t row_count,
+static inline void evaluate_tiles(const patch *p, uint32_t slot_size, size_t row_count,
                                   positions *out) {
     enum { TILE = LANES_TILE * LANES_WIDTH, BLOCK = LIMN_FORMAT_ROW_BLOCK };
     size_t row = 0;
@@ -100,6 +97,12 @@ static inline void evaluate_patch(const patch *p, uint32_t slot_size, size_t row
         evaluate_tile(p, slot_size, row, LANES_TILE, out);
     for (; row < row_count; row += BLOCK)
         evaluate_tile(p, slot_size, row, BLOCK / LANES_WIDTH, out);
+}
+
+/// Not inlined: what a compiler would keep in registers around the loop over patches are registers that
+/// the accumulators need (gcc 12 spills all three splats).
+static LIMNI_NOINLINE void evaluate_narrow_patch(const patch *p, size_t row_count, positions *out) {
+    evaluate_tiles(p, 1, row_count, out);
 }
 
 static inline void gather(const uint32_t *indices, size_t count, const limni_points *from,
@@ -111,15 +114,36 @@ static inline void gather(const uint32_t *indices, size_t count, const limni_poi
     }
 }
 
-/// Writes forward only, so that `dst` may be write-combined memory.
-static inline void store_positions(const positions *src, size_t row_count, size_t stride,
-                                   unsigned char *dst) {
-    for (size_t row = 0; row < row_count; row++, dst += stride) {
-        float *const vertex = (float *)(void *)dst;
-        vertex[0] = src->axes[0][row];
-        vertex[1] = src->axes[1][row];
-        vertex[2] = src->axes[2][row];
+static inline void store_vertex(const positions *src, size_t row, const float *origin,
+                                unsigned char *dst) {
+    float *const vertex = (float *)(void *)dst;
+    for (int axis = 0; axis < 3; axis++)
+        vertex[axis] = src->axes[axis][row] + origin[axis];
+}
+
+/// Vertices without gaps, a vector of rows at a time. Returns how many rows were stored.
+static inline size_t store_packed(const positions *src, size_t row_count, const float *origin,
+                                  unsigned char *dst) {
+    const lanes x = lanes_splat(origin[0]), y = lanes_splat(origin[1]), z = lanes_splat(origin[2]);
+    size_t row = 0;
+    for (; row + LANES_WIDTH <= row_count; row += LANES_WIDTH) {
+        lanes_store_xyz((float *)(void *)dst + 3 * row, //
+                        lanes_add(lanes_load(&src->axes[0][row]), x),
+                        lanes_add(lanes_load(&src->axes[1][row]), y),
+                        lanes_add(lanes_load(&src->axes[2][row]), z));
     }
+    return row;
+}
+
+/// Writes forward only, so that `dst` may be write-combined memory. The origin is added here: in the
+/// sums it would take registers that the accumulators need.
+static inline void store_positions(const positions *src, const float *origin,
+                                   const limni_target *target, unsigned char *dst) {
+    size_t row = 0;
+    if (target->stride == 3 * sizeof(float))
+        row = store_packed(src, target->row_count, origin, dst);
+    for (; row < target->row_count; row++)
+        store_vertex(src, row, origin, dst + row * target->stride);
 }
 
 /// `points` has room for one patch.
@@ -136,16 +160,15 @@ static inline void evaluate_patches(const limni_run *run, uint32_t slot_size, fl
             .control_count = run->control_count,
             .slots = slots,
             .points = (const float(*)[3])points,
-            .origin = from->origin,
         };
         positions scratch;
         gather(indices, run->control_count, from, points);
         if (is_long) {
             evaluate_long_patch(&p, slot_size, target->padded_row_count, &scratch);
         } else {
-            evaluate_patch(&p, slot_size, target->padded_row_count, &scratch);
+            evaluate_narrow_patch(&p, target->padded_row_count, &scratch);
         }
-        store_positions(&scratch, target->row_count, target->stride, dst);
+        store_positions(&scratch, from->origin, target, dst);
         indices += run->control_count;
         slots += (size_t)run->control_count * slot_size;
         dst += target->row_count * target->stride;

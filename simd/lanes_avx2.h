@@ -23,6 +23,21 @@ static inline lanes lanes_load(const float *src) {
 static inline void lanes_store(float *dst, lanes a) {
     _mm256_store_ps(dst, a);
 }
+/// Writes x y z, lane after lane. dst: aligned to 4 bytes.
+static inline void lanes_store_xyz(float *dst, lanes x, lanes y, lanes z) {
+    // As for SSE2 in each half; then the halves go behind one another.
+    const __m256 x0y0x1y1 = _mm256_unpacklo_ps(x, y), x2y2x3y3 = _mm256_unpackhi_ps(x, y);
+    const __m256 z0x1 = _mm256_shuffle_ps(z, x, _MM_SHUFFLE(1, 1, 0, 0));
+    const __m256 y1z1 = _mm256_shuffle_ps(y, z, _MM_SHUFFLE(1, 1, 1, 1));
+    const __m256 z2x3 = _mm256_shuffle_ps(z, x, _MM_SHUFFLE(3, 3, 2, 2));
+    const __m256 y3z3 = _mm256_shuffle_ps(y, z, _MM_SHUFFLE(3, 3, 3, 3));
+    const __m256 a = _mm256_shuffle_ps(x0y0x1y1, z0x1, _MM_SHUFFLE(2, 0, 1, 0));
+    const __m256 b = _mm256_shuffle_ps(y1z1, x2y2x3y3, _MM_SHUFFLE(1, 0, 2, 0));
+    const __m256 c = _mm256_shuffle_ps(z2x3, y3z3, _MM_SHUFFLE(2, 0, 2, 0));
+    _mm256_storeu_ps(dst, _mm256_permute2f128_ps(a, b, 0x20));
+    _mm256_storeu_ps(dst + 8, _mm256_permute2f128_ps(c, a, 0x30));
+    _mm256_storeu_ps(dst + 16, _mm256_permute2f128_ps(b, c, 0x31));
+}
 static inline lanes lanes_add(lanes a, lanes b) {
     return _mm256_add_ps(a, b);
 }

@@ -22,6 +22,11 @@ static inline lanes lanes_load(const float *src) {
 static inline void lanes_store(float *dst, lanes a) {
     vst1q_f32(dst, a);
 }
+/// Writes x y z, lane after lane. dst: aligned to 4 bytes.
+static inline void lanes_store_xyz(float *dst, lanes x, lanes y, lanes z) {
+    const float32x4x3_t xyz = {{x, y, z}};
+    vst3q_f32(dst, xyz);
+}
 static inline lanes lanes_add(lanes a, lanes b) {
     return vaddq_f32(a, b);
 }

@@ -20,6 +20,12 @@ static inline lanes lanes_load(const float *src) {
 static inline void lanes_store(float *dst, lanes a) {
     *dst = a;
 }
+/// Writes x y z, lane after lane. dst: aligned to 4 bytes.
+static inline void lanes_store_xyz(float *dst, lanes x, lanes y, lanes z) {
+    dst[0] = x;
+    dst[1] = y;
+    dst[2] = z;
+}
 static inline lanes lanes_add(lanes a, lanes b) {
     return a + b;
 }

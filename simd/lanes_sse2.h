@@ -22,6 +22,17 @@ static inline lanes lanes_load(const float *src) {
 static inline void lanes_store(float *dst, lanes a) {
     _mm_store_ps(dst, a);
 }
+/// Writes x y z, lane after lane. dst: aligned to 4 bytes.
+static inline void lanes_store_xyz(float *dst, lanes x, lanes y, lanes z) {
+    const __m128 x0y0x1y1 = _mm_unpacklo_ps(x, y), x2y2x3y3 = _mm_unpackhi_ps(x, y);
+    const __m128 z0x1 = _mm_shuffle_ps(z, x, _MM_SHUFFLE(1, 1, 0, 0));
+    const __m128 y1z1 = _mm_shuffle_ps(y, z, _MM_SHUFFLE(1, 1, 1, 1));
+    const __m128 z2x3 = _mm_shuffle_ps(z, x, _MM_SHUFFLE(3, 3, 2, 2));
+    const __m128 y3z3 = _mm_shuffle_ps(y, z, _MM_SHUFFLE(3, 3, 3, 3));
+    _mm_storeu_ps(dst, _mm_shuffle_ps(x0y0x1y1, z0x1, _MM_SHUFFLE(2, 0, 1, 0)));
+    _mm_storeu_ps(dst + 4, _mm_shuffle_ps(y1z1, x2y2x3y3, _MM_SHUFFLE(1, 0, 2, 0)));
+    _mm_storeu_ps(dst + 8, _mm_shuffle_ps(z2x3, y3z3, _MM_SHUFFLE(2, 0, 2, 0)));
+}
 static inline lanes lanes_add(lanes a, lanes b) {
     return _mm_add_ps(a, b);
 }
