@@ -15,7 +15,8 @@ struct limn_baker {
     limni_classes classes;
     limni_patches *meshes;
     uint32_t mesh_count, mesh_capacity;
-    unsigned char *blob; ///< of all meshes so far, or NULL
+    limn_bake_status failed; ///< the first error: after it nothing can be trusted
+    unsigned char *blob;     ///< of all meshes so far, or NULL
     size_t blob_size;
 };
 
@@ -35,11 +36,24 @@ void limn_baker_destroy(limn_baker *baker) {
 }
 
 const char *limn_baker_error(const limn_baker *baker) {
-    return baker->context.error;
+    return baker ? baker->context.error : "out of memory";
+}
+
+/// A copy without control characters, which terminals and text files would act on.
+static char *copy_name(limni_context *context, const char *name) {
+    char *const copy = limni_allocate(context, strlen(name) + 1, 1);
+    if (!copy) return NULL;
+    strcpy(copy, name);
+    for (char *c = copy; *c; c++) {
+        if ((unsigned char)*c < ' ' || *c == 0x7f) *c = '_';
+    }
+    return copy;
 }
 
 static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     limni_context *const context = &baker->context;
+    source->name = copy_name(context, source->name ? source->name : "mesh");
+    if (!source->name) return LIMN_BAKE_MEMORY;
     if (baker->mesh_count == baker->mesh_capacity) {
         baker->mesh_capacity = baker->mesh_capacity ? 2 * baker->mesh_capacity : 4;
         baker->meshes =
@@ -53,6 +67,7 @@ static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     LIMNI_TRY(limni_patches_build(context, &mesh, &baker->rules, &baker->classes,
                                   &baker->meshes[baker->mesh_count]));
     baker->mesh_count++;
+    limni_release(context, source->position_numbers);
     limni_release(context, source->position_lines);
     limni_release(context, source->face_offsets);
     limni_release(context, source->face_corners);
@@ -66,10 +81,15 @@ static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     return LIMN_BAKE_OK;
 }
 
-limn_bake_status limn_baker_add_file(limn_baker *baker, const char *path) {
+static limn_bake_status add_file(limn_baker *baker, const char *path) {
     limni_source source = {0};
     LIMNI_TRY(limni_read_file(&baker->context, path, &source));
     return add_source(baker, &source);
+}
+
+limn_bake_status limn_baker_add_file(limn_baker *baker, const char *path) {
+    LIMNI_TRY(baker->failed);
+    return baker->failed = add_file(baker, path);
 }
 
 // ---- Meshes from memory
@@ -104,19 +124,12 @@ static limn_bake_status check_mesh(limni_context *context, const limn_bake_mesh 
     return LIMN_BAKE_OK;
 }
 
-static char *copy_name(limni_context *context, const char *name) {
-    const char *const given = name ? name : "mesh";
-    char *const copy = limni_allocate(context, strlen(given) + 1, 1);
-    if (copy) strcpy(copy, given);
-    return copy;
-}
-
-limn_bake_status limn_baker_add_mesh(limn_baker *baker, const limn_bake_mesh *mesh) {
+static limn_bake_status add_mesh(limn_baker *baker, const limn_bake_mesh *mesh) {
     limni_context *const context = &baker->context;
     uint64_t corner_count = 0;
     LIMNI_TRY(check_mesh(context, mesh, &corner_count));
     limni_source source = {
-        .name = copy_name(context, mesh->name),
+        .name = mesh->name,
         .positions = limni_allocate(context, mesh->position_count, sizeof *source.positions),
         .position_count = mesh->position_count,
         .face_count = mesh->face_count,
@@ -124,8 +137,7 @@ limn_bake_status limn_baker_add_mesh(limn_baker *baker, const limn_bake_mesh *me
             limni_allocate(context, (size_t)mesh->face_count + 1, sizeof *source.face_offsets),
         .face_corners = limni_allocate(context, (size_t)corner_count, sizeof *source.face_corners),
     };
-    if (!source.name || !source.positions || !source.face_offsets || !source.face_corners)
-        return LIMN_BAKE_MEMORY;
+    if (!source.positions || !source.face_offsets || !source.face_corners) return LIMN_BAKE_MEMORY;
     memcpy(source.positions, mesh->positions, mesh->position_count * sizeof *source.positions);
     memcpy(source.face_corners, mesh->face_indices, (size_t)corner_count * sizeof(uint32_t));
     source.face_offsets[0] = 0;
@@ -135,9 +147,15 @@ limn_bake_status limn_baker_add_mesh(limn_baker *baker, const limn_bake_mesh *me
     return add_source(baker, &source);
 }
 
+limn_bake_status limn_baker_add_mesh(limn_baker *baker, const limn_bake_mesh *mesh) {
+    LIMNI_TRY(baker->failed);
+    return baker->failed = add_mesh(baker, mesh);
+}
+
 // ---- The file
 
 limn_bake_status limn_baker_finish(limn_baker *baker, const void **blob, size_t *blob_size) {
+    LIMNI_TRY(baker->failed);
     if (baker->mesh_count == 0)
         return limni_fail(&baker->context, LIMN_BAKE_BAD_INPUT, "there is no mesh to bake");
     if (!baker->blob)

@@ -20,8 +20,13 @@ static size_t table_size(const limni_class *class) {
 }
 
 static uint64_t table_hash(const limni_class *class) {
-    return key_hash((const uint32_t *)(const void *)class->table,
-                    (uint32_t)(table_size(class) / sizeof(uint32_t)));
+    uint64_t hash = class->control_count;
+    for (size_t f = 0; f < table_size(class) / sizeof(float); f++) {
+        uint32_t bits;
+        memcpy(&bits, &class->table[f], sizeof bits);
+        hash = limni_hash_mix(hash, bits);
+    }
+    return hash;
 }
 
 /// Where a key is in the dictionary, or where it would go.

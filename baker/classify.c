@@ -4,8 +4,7 @@
 #include <string.h>
 
 enum {
-    /// A ring vertex is named once per ring, and K counts shared ones once: rings hold at most
-    /// K + 6 entries beyond the identifications of small meshes, which only lower K.
+    /// check_size() refuses faces whose rings have more entries in all.
     RING_MAX = LIMNI_LOCAL_BASE_MAX,
     KEY_MAX = 6 + 3 * RING_MAX
 };

@@ -4,7 +4,9 @@
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 static const char help[] =
@@ -33,6 +35,8 @@ typedef struct arguments {
     limn_bake_desc desc;
     const char *output;
     bool quiet, help;
+    double next_progress; ///< seconds; 0: not yet set
+    bool progress_shown;
 } arguments;
 
 static void print_note(void *user, const char *text) {
@@ -40,9 +44,20 @@ static void print_note(void *user, const char *text) {
     if (!given->quiet) fprintf(stderr, "note: %s\n", text);
 }
 
+static double seconds_now(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/// A line that is shown after a while, a few times a second, and removed at the end.
 static void print_progress(void *user, const char *step, uint32_t done, uint32_t total) {
-    (void)user;
-    if (total < 100000) return; // over before it could be read
+    arguments *const given = user;
+    const double now = seconds_now();
+    if (given->next_progress == 0) given->next_progress = now + 0.5;
+    if (now < given->next_progress && !(done == total && given->progress_shown)) return;
+    given->next_progress = now + 0.2;
+    given->progress_shown = done < total;
     fprintf(stderr, "\r%s: %u of %u faces", step, done, total);
     if (done == total) fprintf(stderr, "\r\033[K");
     fflush(stderr);
@@ -104,8 +119,19 @@ static int parse(int argc, char **argv, arguments *given) {
         if (status != LIMNI_EXIT_OK || given->help) return status;
     }
     if (optind == argc) return limni_usage_error("bake", "there is no input");
-    if (!given->output) return limni_usage_error("bake", "there is no output: -o OUT.limn");
+    if (!given->output || !given->output[0])
+        return limni_usage_error("bake", "there is no output: -o OUT.limn");
     return LIMNI_EXIT_OK;
+}
+
+/// A mesh's name in the place of the output is a slip that would cost the mesh.
+static bool is_mesh_name(const char *path) {
+    static const char *const endings[] = {".obj", ".off", ".ply"};
+    const size_t length = strlen(path);
+    for (int e = 0; e < 3; e++) {
+        if (length > 4 && strcasecmp(path + length - 4, endings[e]) == 0) return true;
+    }
+    return false;
 }
 
 static bool is_same_file(const char *a, const char *b) {
@@ -145,6 +171,9 @@ int limni_command_bake(int argc, char **argv) {
         fputs(help, stdout);
         return LIMNI_EXIT_OK;
     }
+    if (is_mesh_name(given.output))
+        return limni_usage_error("bake", "%s: the output is a .limn file, not a mesh",
+                                 given.output);
     for (int i = optind; i < argc; i++) {
         if (is_same_file(argv[i], given.output))
             return limni_usage_error("bake", "%s is input and output", argv[i]);

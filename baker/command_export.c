@@ -12,8 +12,9 @@ static const char help[] =
     "Evaluates the bind pose at a uniform level and writes a triangle mesh.\n\n"
     "  -l, --level N       0 (3 vertices per face) to 4 (153 vertices, 256 triangles per face)\n"
     "  -o, --output FILE   .obj (text) or .ply (binary)\n"
-    "      --weld          merge vertices, only where all bits of their positions are equal;\n"
-    "                      otherwise every patch has its own\n"
+    "      --weld          merge the vertices that neighbouring patches share, only where all bits "
+    "of\n"
+    "                      their positions are equal; otherwise every patch has its own\n"
     "  -h, --help          this text\n\n"
     "All meshes of the file are written: as objects in OBJ, one after the other in PLY.\n";
 
@@ -77,10 +78,15 @@ static limn_bake_status export_pack(limni_context *context, const limn_pack *pac
                                     const arguments *given) {
     limni_dense *const meshes = limni_allocate(context, pack->mesh_count, sizeof *meshes);
     if (!meshes) return LIMN_BAKE_MEMORY;
+    uint64_t vertex_count = 0;
     for (uint32_t m = 0; m < pack->mesh_count; m++) {
         const limn_mesh mesh = limn_pack_mesh(pack, m);
         LIMNI_TRY(limni_dense_build(context, &mesh, given->level, given->weld, &meshes[m]));
+        vertex_count += meshes[m].vertex_count;
     }
+    if (vertex_count > UINT32_MAX)
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: too many vertices for one file",
+                          given->output);
     limni_output_file file;
     if (!limni_output_open(&file, given->output))
         return limni_fail(context, LIMN_BAKE_IO, "%s: %s", given->output, file.error);

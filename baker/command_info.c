@@ -32,7 +32,7 @@ static uint64_t patch_size(const limn_mesh *mesh) {
     uint64_t size = mesh->run_count * sizeof(limn_file_run) + mesh->patch_count * sizeof(uint32_t);
     for (uint32_t r = 0; r < mesh->run_count; r++) {
         const uint32_t controls = mesh->classes[mesh->runs[r].class_index].control_count;
-        const uint64_t slot_size = controls <= LIMN_FORMAT_NARROW_SLOTS ? 1 : 2;
+        const uint64_t slot_size = limn_file_slot_size(&mesh->classes[mesh->runs[r].class_index]);
         size += (uint64_t)mesh->runs[r].patch_count * controls * (sizeof(uint32_t) + slot_size);
     }
     return size;

@@ -5,6 +5,7 @@
 #include "mesh.h"
 #include "opensubdiv.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -108,6 +109,12 @@ limn_bake_status limni_compare(limni_context *context, const limn_pack *pack, co
     const double high[3] = {mesh->bounds_max[0], mesh->bounds_max[1], mesh->bounds_max[2]};
     *comparison =
         (limni_comparison){.diagonal = distance(low, high), .vertex_count = plan.vertex_count};
+    for (int axis = 0; axis < 3; axis++) {
+        const double reach = fmax(fabs((double)low[axis]), fabs(high[axis]));
+        comparison->rounding += reach * (double)FLT_EPSILON / comparison->diagonal;
+    }
+    if (!(comparison->diagonal > 0))
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: the mesh has no extent", path);
     for (uint32_t patch = 0; patch < plan.patch_count; patch++)
         compare_patch(mesh, patch, (const float(*)[3])vertices, (const double(*)[3])limit,
                       unrotated, comparison);

@@ -7,7 +7,8 @@
 #include "limn/limn.h"
 
 typedef struct limni_comparison {
-    double diagonal;       ///< of the control points' bounding box
+    double diagonal; ///< of the control points' bounding box
+    double rounding; ///< what rounding the result to floats alone may add, relative to the diagonal
     double largest, mean;  ///< distances, relative to the diagonal
     uint32_t largest_face; ///< where the largest is: a triangle of the source, from 0
     uint64_t vertex_count; ///< compared

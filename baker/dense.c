@@ -6,41 +6,82 @@
 
 #include <string.h>
 
-static uint64_t position_hash(const float position[3]) {
-    uint32_t bits[3];
-    memcpy(bits, position, sizeof bits);
-    return limni_hash_mix(limni_hash_mix(bits[0], bits[1]), bits[2]);
+/// Where a vertex lies on the control mesh, the same for all patches that have it: a <= b are the ends of
+/// its base edge and `step` counts from a; at a corner both are that control point.
+typedef struct place {
+    uint32_t a, b, step;
+} place;
+
+/// Vertices by place.
+typedef struct place_table {
+    uint32_t *vertices; ///< LIMNI_NONE: free
+    uint32_t size;      ///< a power of two
+    place *places;      ///< [vertex_count] of the vertices that are kept
+} place_table;
+
+static place place_of(const limn_domain *domain, const uint32_t *corners, uint32_t row) {
+    if (row < domain->corner_count) return (place){corners[row], corners[row], 0};
+    uint32_t edge = 0, step = 0;
+    while (!(domain->rows[row].edges >> edge & 1))
+        edge++;
+    while (domain->edge_rows[edge][step] != row)
+        step++;
+    const uint32_t a = corners[edge], b = corners[(edge + 1) % domain->corner_count];
+    return a < b ? (place){a, b, step} : (place){b, a, LIMN_GRID_SIZE - step};
 }
 
-/// Moves distinct positions to the front. Fills `moved` with the new index of each vertex.
-static uint32_t weld_vertices(float (*vertices)[3], uint32_t count, uint32_t *table, uint32_t mask,
-                              uint32_t *moved) {
-    uint32_t kept = 0;
-    for (uint32_t v = 0; v < count; v++) {
-        uint32_t at = (uint32_t)position_hash(vertices[v]) & mask;
-        while (table[at] != LIMNI_NONE &&
-               memcmp(vertices[table[at]], vertices[v], sizeof *vertices) != 0)
-            at = (at + 1) & mask;
-        if (table[at] == LIMNI_NONE) {
-            table[at] = kept;
-            memmove(vertices[kept++], vertices[v], sizeof *vertices);
-        }
-        moved[v] = table[at];
+/// The vertex at the same place with the same bits, or where a new one goes.
+static uint32_t *find_place(const place_table *table, const limni_dense *dense, place at,
+                            const float position[3]) {
+    uint64_t hash = limni_hash_mix(limni_hash_mix(at.a, at.b), at.step);
+    for (;; hash++) {
+        uint32_t *const found = &table->vertices[hash & (table->size - 1)];
+        if (*found == LIMNI_NONE) return found;
+        if (memcmp(&table->places[*found], &at, sizeof at) == 0 &&
+            memcmp(dense->vertices[*found], position, sizeof *dense->vertices) == 0)
+            return found;
     }
-    return kept;
 }
 
-static limn_bake_status weld(limni_context *context, limni_dense *dense) {
-    const uint32_t size = limni_hash_size(dense->vertex_count);
-    uint32_t *const table = limni_allocate(context, size, sizeof *table);
+/// Moves the vertices that are kept to the front. Fills `moved` with the new index of each.
+static void weld_vertices(const limn_mesh *mesh, uint32_t level, place_table *table,
+                          limni_dense *dense, uint32_t *moved) {
+    const uint32_t row_count = mesh->domain->row_counts[level];
+    uint32_t kept = 0;
+    for (uint32_t patch = 0; patch < mesh->patch_count; patch++) {
+        uint32_t corners[LIMN_CORNER_MAX];
+        limn_mesh_corners(mesh, patch, corners);
+        for (uint32_t row = 0; row < row_count; row++) {
+            const size_t vertex = (size_t)patch * row_count + row;
+            float position[3];
+            memcpy(position, dense->vertices[vertex], sizeof position);
+            moved[vertex] = kept;
+            if (mesh->domain->rows[row].edges) {
+                const place at = place_of(mesh->domain, corners, row);
+                uint32_t *const found = find_place(table, dense, at, position);
+                if (*found == LIMNI_NONE) table->places[ *found = kept] = at;
+                moved[vertex] = *found;
+            }
+            if (moved[vertex] == kept) memcpy(dense->vertices[kept++], position, sizeof position);
+        }
+    }
+    dense->vertex_count = kept;
+}
+
+/// Merges the vertices that patches share, where all bits of their positions are equal.
+static limn_bake_status weld(limni_context *context, const limn_mesh *mesh, uint32_t level,
+                             limni_dense *dense) {
+    place_table table = {.size = limni_hash_size(dense->vertex_count)};
+    table.vertices = limni_allocate(context, table.size, sizeof *table.vertices);
+    table.places = limni_allocate(context, dense->vertex_count, sizeof *table.places);
     uint32_t *const moved = limni_allocate(context, dense->vertex_count, sizeof *moved);
-    if (!table || !moved) return LIMN_BAKE_MEMORY;
-    memset(table, 0xff, size * sizeof *table);
-    dense->vertex_count =
-        weld_vertices(dense->vertices, dense->vertex_count, table, size - 1, moved);
+    if (!table.vertices || !table.places || !moved) return LIMN_BAKE_MEMORY;
+    memset(table.vertices, 0xff, table.size * sizeof *table.vertices);
+    weld_vertices(mesh, level, &table, dense, moved);
     for (uint64_t i = 0; i < dense->index_count; i++)
         dense->indices[i] = moved[dense->indices[i]];
-    limni_release(context, table);
+    limni_release(context, table.vertices);
+    limni_release(context, table.places);
     limni_release(context, moved);
     return LIMN_BAKE_OK;
 }
@@ -70,12 +111,7 @@ limn_bake_status limni_dense_build(limni_context *context, const limn_mesh *mesh
         for (uint32_t i = 0; i < index_count; i++)
             *dst++ = first + indices[i];
     }
-    return weld_equal ? weld(context, dense) : LIMN_BAKE_OK;
-}
-
-void limni_dense_release(limni_context *context, limni_dense *dense) {
-    limni_release(context, dense->vertices);
-    limni_release(context, dense->indices);
+    return weld_equal ? weld(context, mesh, level, dense) : LIMN_BAKE_OK;
 }
 
 void limni_dense_write_obj(const limni_dense *meshes, uint32_t mesh_count, FILE *stream) {

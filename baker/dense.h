@@ -20,7 +20,6 @@ typedef struct limni_dense {
 /// one; otherwise every patch keeps its own.
 limn_bake_status limni_dense_build(limni_context *context, const limn_mesh *mesh, uint32_t level,
                                    bool weld, limni_dense *dense);
-void limni_dense_release(limni_context *context, limni_dense *dense);
 
 /// Both write numbers so that they read back to the same bits; the stream keeps the error.
 void limni_dense_write_obj(const limni_dense *meshes, uint32_t mesh_count, FILE *stream);

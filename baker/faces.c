@@ -44,7 +44,8 @@ limn_bake_status limni_weld(limni_context *context, limni_source *source) {
     const uint32_t size = limni_hash_size(count);
     uint32_t *const table = limni_allocate(context, size, sizeof *table);
     uint32_t *const moved = limni_allocate(context, count, sizeof *moved);
-    if (!table || !moved) return LIMN_BAKE_MEMORY;
+    source->position_numbers = limni_allocate(context, count, sizeof *source->position_numbers);
+    if (!table || !moved || !source->position_numbers) return LIMN_BAKE_MEMORY;
     memset(table, 0xff, size * sizeof *table);
 
     uint32_t kept = 0;
@@ -59,6 +60,7 @@ limn_bake_status limni_weld(limni_context *context, limni_source *source) {
         if (table[at] == LIMNI_NONE) {
             table[at] = kept;
             memmove(source->positions[kept], position, sizeof *source->positions);
+            source->position_numbers[kept] = p;
             if (source->position_lines) source->position_lines[kept] = source->position_lines[p];
             kept++;
         }

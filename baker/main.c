@@ -57,8 +57,11 @@ int main(int argc, char **argv) {
         return LIMNI_EXIT_OK;
     }
     for (int c = 0; c < COMMAND_COUNT; c++) {
-        if (strcmp(argv[1], commands[c].name) == 0)
-            return finish(commands[c].run(argc - 1, argv + 1));
+        if (strcmp(argv[1], commands[c].name) != 0) continue;
+        char name[32]; // for getopt's messages
+        snprintf(name, sizeof name, "limn %s", commands[c].name);
+        argv[1] = name;
+        return finish(commands[c].run(argc - 1, argv + 1));
     }
     fprintf(stderr, "limn: there is no command '%s'; see limn --help\n", argv[1]);
     return LIMNI_EXIT_USAGE;

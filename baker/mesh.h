@@ -11,16 +11,17 @@
 
 #define LIMNI_NONE 0xffffffffu
 
-/// Corners of all faces of a source: half-edges, and hash tables of twice as many, fit in 32 bits, and
+/// Vertices, and corners of all faces, of a source: half-edges, and hash tables of twice as many, fit in 32 bits, and
 /// faces in the 30 bits that the file has for them.
 #define LIMNI_CORNERS_MAX (1u << 28)
 
 typedef struct limni_mesh {
     const char *name;
-    const char *path;              ///< NULL for a mesh from memory
-    const uint32_t *control_lines; ///< [control_count] or NULL
-    const uint32_t *face_numbers;  ///< by polygon, as read, from 0
-    const uint32_t *face_lines;    ///< by polygon, or NULL
+    const char *path;                ///< NULL for a mesh from memory
+    const uint32_t *control_numbers; ///< as read, from 0; NULL: the index
+    const uint32_t *control_lines;   ///< [control_count] or NULL
+    const uint32_t *face_numbers;    ///< by polygon, as read, from 0
+    const uint32_t *face_lines;      ///< by polygon, or NULL
     uint32_t index_base;
     uint32_t control_count;
     uint32_t face_count;

@@ -3,6 +3,7 @@
 
 #include "hash.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,7 +24,7 @@ static uint32_t slot_size_of(const limni_class *class) {
 static limn_bake_status assign_classes(limni_context *context, const limni_mesh *mesh,
                                        const limni_rules *rules, limni_classes *classes,
                                        limni_classifier *classifier, const assignment *assigned) {
-    const uint32_t step = mesh->face_count / 100 + 1000;
+    const uint32_t step = mesh->face_count / 200 + 1;
     for (uint32_t face = 0; face < mesh->face_count; face++) {
         if (face % step == 0) limni_progress(context, "classify", face, mesh->face_count);
         const limni_local_base *const base = limni_classify(context, classifier, face);
@@ -208,11 +209,13 @@ static limn_bake_status check_agreement(limni_context *context, const limni_mesh
 
 // ---- All steps
 
-/// The origin is 0 where that is as good as any, so that most meshes do not depend on their bounds.
+/// Bounds of the control points that faces use. The origin is 0 where that is as good as any, so that
+/// most meshes do not depend on their bounds.
 static void find_bounds(const limni_mesh *mesh, limn_file_mesh *record) {
     for (int axis = 0; axis < 3; axis++) {
-        float low = mesh->controls[0][axis], high = low;
-        for (uint32_t c = 1; c < mesh->control_count; c++) {
+        float low = INFINITY, high = -INFINITY;
+        for (uint32_t c = 0; c < mesh->control_count; c++) {
+            if (mesh->first[c] == LIMNI_NONE) continue;
             const float value = mesh->controls[c][axis];
             low = value < low ? value : low;
             high = value > high ? value : high;

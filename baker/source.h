@@ -6,11 +6,12 @@
 #include "context.h"
 
 typedef struct limni_source {
-    uint32_t index_base;      ///< of the file's own numbering, for messages: 1 in OBJ, else 0
-    const char *name;         ///< of the mesh: the file's name without folder and extension
-    const char *path;         ///< as the user wrote it, for messages; NULL for a mesh from memory
-    float (*positions)[3];    ///< [position_count], finite
-    uint32_t *position_lines; ///< [position_count], from 1; NULL for a mesh from memory
+    uint32_t index_base;        ///< of the file's own numbering, for messages: 1 in OBJ, else 0
+    const char *name;           ///< of the mesh: the file's name without folder and extension
+    const char *path;           ///< as the user wrote it, for messages; NULL for a mesh from memory
+    float (*positions)[3];      ///< [position_count], finite
+    uint32_t *position_numbers; ///< [position_count] as read, from 0, after a weld; else NULL
+    uint32_t *position_lines;   ///< [position_count], from 1; NULL for a mesh from memory
     uint32_t position_count;
     uint32_t face_count;
     uint32_t

@@ -22,7 +22,8 @@ const char *limni_face_place(const limni_mesh *mesh, uint32_t face, limni_place 
 }
 
 const char *limni_control_place(const limni_mesh *mesh, uint32_t control, limni_place text) {
-    return place(text, "vertex", control + mesh->index_base, mesh->control_lines, control);
+    const uint32_t number = mesh->control_numbers ? mesh->control_numbers[control] : control;
+    return place(text, "vertex", number + mesh->index_base, mesh->control_lines, control);
 }
 
 static const char *file_of(const limni_mesh *mesh) {
@@ -287,7 +288,7 @@ static limn_bake_status connect_splitting(limni_context *context, limni_mesh *me
     }
     limni_release(context, cut);
     if (mesh->control_count > control_count) {
-        mesh->control_lines = NULL; // the new ones have none
+        mesh->control_lines = mesh->control_numbers = NULL; // the new ones have none
         limni_note(context,
                    "%s: repaired: %u control points added by splitting; %u half-edges were "
                    "non-manifold or wound inconsistently",
@@ -326,8 +327,10 @@ limn_bake_status limni_connect(limni_context *context, limni_mesh *mesh) {
 }
 
 limn_bake_status limni_mesh_build(limni_context *context, limni_source *source, limni_mesh *mesh) {
-    if (source->face_offsets[source->face_count] > LIMNI_CORNERS_MAX)
-        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: the faces have more than %u corners",
+    if (source->face_offsets[source->face_count] > LIMNI_CORNERS_MAX ||
+        source->position_count > LIMNI_CORNERS_MAX)
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                          "%s: more than %u vertices, or corners of faces",
                           source->path ? source->path : source->name, LIMNI_CORNERS_MAX);
     if (context->desc.repair & LIMN_REPAIR_WELD) LIMNI_TRY(limni_weld(context, source));
     LIMNI_TRY(limni_check_faces(context, source));

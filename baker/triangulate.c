@@ -93,22 +93,19 @@ static double squared_distance(const float *a, const float *b) {
     return sum;
 }
 
-/// What makes one cut better than another, most important first.
+/// A corner that could be cut off.
 typedef struct cut {
     uint32_t corner;
     bool existing; ///< the diagonal is an edge already
-    bool outside;  ///< not an ear
     double length;
     uint64_t key;
 } cut;
 
-static bool is_better(const cut *a, const cut *b) {
-    if (a->existing != b->existing) return b->existing;
-    if (a->outside != b->outside) return b->outside;
+/// Shorter first; ties to the smaller control point indices.
+static bool is_shorter(const cut *a, const cut *b) {
     if (a->length != b->length) return a->length < b->length;
-    return (a->key & 0xffffffffu) != (b->key & 0xffffffffu)
-               ? (a->key & 0xffffffffu) < (b->key & 0xffffffffu)
-               : a->key < b->key;
+    const uint32_t low = a->key & 0xffffffffu, other_low = b->key & 0xffffffffu;
+    return low != other_low ? low < other_low : a->key < b->key;
 }
 
 static cut cut_at(const polygon *p, const edge_set *edges, uint32_t corner) {
@@ -116,19 +113,39 @@ static cut cut_at(const polygon *p, const edge_set *edges, uint32_t corner) {
     return (cut){
         .corner = corner,
         .existing = has_edge(edges, p->corners[before], p->corners[after]),
-        .outside = p->size > 4 && !is_ear(p, corner), // of a quad, only the lengths count
         .length = squared_distance(at(p, before), at(p, after)),
         .key = edge_key(p->corners[before], p->corners[after]),
     };
 }
 
-static uint32_t best_corner(const polygon *p, const edge_set *edges) {
-    cut best = cut_at(p, edges, 0);
-    for (uint32_t corner = 1; corner < p->size; corner++) {
+/// The shortest cut along an edge that exists, or does not, behind `last` if that is given. Returns
+/// whether there is one.
+static bool find_cut(const polygon *p, const edge_set *edges, bool existing, const cut *last,
+                     cut *best) {
+    bool found = false;
+    for (uint32_t corner = 0; corner < p->size; corner++) {
         const cut candidate = cut_at(p, edges, corner);
-        if (is_better(&candidate, &best)) best = candidate;
+        if (candidate.existing != existing) continue;
+        if (last && !is_shorter(last, &candidate)) continue;
+        if (!found || is_shorter(&candidate, best)) *best = candidate;
+        found = true;
     }
-    return best.corner;
+    return found;
+}
+
+/// New diagonals come first, then ears, then short ones. Whether a corner is an ear takes longest to
+/// find out, and is asked last: of most polygons the first cut that is tried is one.
+static uint32_t best_corner(const polygon *p, const edge_set *edges) {
+    cut shortest, tried;
+    const bool existing = !find_cut(p, edges, false, NULL, &shortest);
+    if (existing) find_cut(p, edges, true, NULL, &shortest);
+    tried = shortest;
+    if (p->size == 4) return shortest.corner; // of a quad, only the lengths count
+    do {
+        if (is_ear(p, tried.corner)) return tried.corner;
+        const cut last = tried;
+        if (!find_cut(p, edges, existing, &last, &tried)) return shortest.corner;
+    } while (true);
 }
 
 static void emit(limni_mesh *mesh, uint32_t source_face, uint32_t a, uint32_t b, uint32_t c) {
@@ -197,6 +214,7 @@ limn_bake_status limni_triangulate(limni_context *context, const limni_source *s
     *mesh = (limni_mesh){
         .name = source->name,
         .path = source->path,
+        .control_numbers = source->position_numbers,
         .control_lines = source->position_lines,
         .face_lines = source->face_lines,
         .face_numbers = source->face_numbers,

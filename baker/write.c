@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The .limn file: a header, a directory sorted by mesh and kind, and chunks. Laid out twice: once
- * to find the offsets, once to copy. Records are written as the host has them, which open() on a
- * big-endian machine would refuse; the baker refuses to run there too.
+ * to find the offsets, once to copy. Records are written as the host has them; what was made is opened
+ * before it is handed out, which also refuses a big-endian host.
  */
 #include "write.h"
 
@@ -152,6 +152,11 @@ limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rul
     if (!*blob) return LIMN_BAKE_MEMORY;
     *blob_size = (size_t)header.size;
     fill_blob(classes, parts, part_count, directory, &header, *blob);
+    limn_pack pack;
+    const limn_result result = limn_pack_open(&pack, *blob, *blob_size);
+    if (result != LIMN_OK)
+        return limni_fail(context, LIMN_BAKE_INTERNAL,
+                          "defect in the baker: it made a bad file: %s", limn_result_text(result));
     limni_release(context, parts);
     limni_release(context, directory);
     limni_release(context, class_records);

@@ -12,6 +12,6 @@ function(limn_target target)
     set_target_properties(${target} PROPERTIES
         C_STANDARD 11 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF
         CXX_STANDARD 17 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF)
-    target_compile_options(${target} PRIVATE -ffp-contract=off)
+    target_compile_options(${target} PRIVATE -ffp-contract=off -fno-fast-math)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:limn_warnings>)
 endfunction()

@@ -28,6 +28,7 @@
 /// A row with more terms than this is summed with compensation. Both patches that share a row see
 /// the same terms, so they agree on how to sum it.
 #define LIMNI_PLAIN_TERMS 24
+LIMN_STATIC_ASSERT(LIMNI_PLAIN_TERMS <= LIMN_FORMAT_NARROW_SLOTS, "plain sums have narrow slots");
 
 /// Consecutive patches of one class.
 typedef struct limni_run {
@@ -53,11 +54,6 @@ typedef struct limni_target {
     uint32_t row_count;      ///< rows that are written
     uint32_t padded_row_count;
 } limni_target;
-
-/// Bytes per slot of the patches of a class.
-static inline uint32_t limni_slot_size(const limn_file_class *class) {
-    return class->control_count <= LIMN_FORMAT_NARROW_SLOTS ? 1 : 2;
-}
 
 struct limn_kernels {
     const char *name;

@@ -19,7 +19,7 @@ uint32_t limni_find_run(const limn_mesh *mesh, uint32_t patch_index) {
 limni_run limni_run_part(const limn_mesh *mesh, const limn_file_run *run, uint32_t begin,
                          uint32_t end) {
     const limn_file_class *const class = &mesh->classes[run->class_index];
-    const uint32_t slot_size = limni_slot_size(class);
+    const uint32_t slot_size = limn_file_slot_size(class);
     const size_t skipped = (size_t)begin * class->control_count;
     return (limni_run){
         .table = mesh->tables + class->table_offset / sizeof(float),

@@ -110,7 +110,7 @@ static limn_result validate_directory(const limn_pack *pack) {
     const uint64_t room = pack->blob_size - sizeof *header;
     if (room / sizeof(limn_file_chunk) < header->chunk_count) return LIMN_ERROR_CHUNK;
 
-    uint64_t last_key = 0;
+    uint64_t last_key = 0, end = sizeof *header + header->chunk_count * sizeof(limn_file_chunk);
     for (uint32_t c = 0; c < header->chunk_count; c++) {
         const limn_file_chunk *const chunk = &directory_of(pack)[c];
         const uint64_t key = chunk_key(chunk->mesh, chunk->kind);
@@ -122,6 +122,9 @@ static limn_result validate_directory(const limn_pack *pack) {
             chunk->size > pack->blob_size - chunk->offset)
             return LIMN_ERROR_CHUNK;
         if (chunk->flags & LIMN_CHUNK_REQUIRED && !is_known(chunk)) return LIMN_ERROR_UNKNOWN_CHUNK;
+        if (chunk->size == 0) continue;
+        if (chunk->offset < end) return LIMN_ERROR_CHUNK;
+        end = chunk->offset + chunk->size; // no two overlap: validation stays linear
     }
     return LIMN_OK;
 }
@@ -136,11 +139,13 @@ static limn_result validate_text(const limn_pack *pack, uint32_t mesh, uint32_t 
 
 // ---- Validation of the tables
 
-static bool all_finite(const void *floats, size_t count) {
-    const uint32_t *const bits = floats;
+static bool all_finite(const float *values, size_t count) {
     uint32_t bad = 0;
-    for (size_t f = 0; f < count; f++)
-        bad |= (bits[f] & 0x7f800000u) == 0x7f800000u;
+    for (size_t v = 0; v < count; v++) {
+        uint32_t bits;
+        memcpy(&bits, &values[v], sizeof bits);
+        bad |= (bits & 0x7f800000u) == 0x7f800000u;
+    }
     return !bad;
 }
 
@@ -156,16 +161,18 @@ static limn_result validate_classes(const limn_pack *pack) {
     for (uint32_t c = 0; c < pack->class_count; c++) {
         const limn_file_class *const class = &classes[c];
         if (class->domain >= LIMN_DOMAIN_COUNT || class->depth != LIMN_LEVEL_MAX ||
-            class->control_count == 0 || class->control_count > LIMN_FORMAT_CONTROLS_MAX)
+            class->control_count > LIMN_FORMAT_CONTROLS_MAX)
             return LIMN_ERROR_CLASS;
         const limn_domain *const domain = limn_domain_get((limn_domain_kind) class->domain);
+        if (class->control_count < domain->corner_count) return LIMN_ERROR_CLASS;
         const uint64_t column_size = domain->padded_row_counts[class->depth] * sizeof(float);
         if (class->table_offset % LIMN_FORMAT_ALIGNMENT != 0 ||
             class->table_offset > tables->size ||
             class->control_count > (tables->size - class->table_offset) / column_size)
             return LIMN_ERROR_CLASS;
     }
-    if (!all_finite(bytes_at(pack, tables->offset), (size_t)tables->size / sizeof(float)))
+    if (!all_finite((const float *)(const void *)bytes_at(pack, tables->offset),
+                    (size_t)tables->size / sizeof(float)))
         return LIMN_ERROR_TABLE;
     return LIMN_OK;
 }
@@ -197,13 +204,14 @@ static limn_result validate_runs(const limn_pack *pack, const limn_mesh *mesh, u
         const limn_file_run *const run = &mesh->runs[r];
         if (run->class_index >= pack->class_count) return LIMN_ERROR_RUN;
         const limn_file_class *const class = &mesh->classes[run->class_index];
-        const uint32_t slot_size = limni_slot_size(class);
+        const uint32_t slot_size = limn_file_slot_size(class);
         slot += slot % slot_size;
         if (class->domain != mesh->domain->kind || run->patch_count == 0 ||
             run->first_patch != patch || run->first_index != index || run->first_slot != slot)
             return LIMN_ERROR_RUN;
         const uint64_t count = (uint64_t)run->patch_count * class->control_count;
-        if (count > index_count - index || count * slot_size > slots_size - slot)
+        if (slot > slots_size || count > index_count - index ||
+            count * slot_size > slots_size - slot)
             return LIMN_ERROR_RUN;
         patch += run->patch_count;
         index += count;
@@ -227,17 +235,27 @@ static limn_result validate_indices(const limn_mesh *mesh, const limn_file_run *
     return LIMN_OK;
 }
 
+/// Every slot of the class once: limn_mesh_corners() relies on finding the corners.
+static bool is_permutation(const void *slots, uint32_t slot_size, uint32_t count) {
+    uint64_t seen[LIMN_FORMAT_CONTROLS_MAX / 64] = {0};
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t slot =
+            slot_size == 1 ? ((const uint8_t *)slots)[k] : ((const uint16_t *)slots)[k];
+        if (slot >= count || seen[slot / 64] >> slot % 64 & 1) return false;
+        seen[slot / 64] |= (uint64_t)1 << slot % 64;
+    }
+    return true;
+}
+
 static limn_result validate_slots(const limn_mesh *mesh, const limn_file_run *run) {
     const limn_file_class *const class = &mesh->classes[run->class_index];
-    const size_t count = (size_t)run->patch_count * class->control_count;
-    const uint8_t *const narrow = mesh->slots + run->first_slot;
-    const uint16_t *const wide = (const void *)narrow;
-    uint32_t largest = 0;
-    for (size_t k = 0; k < count; k++) {
-        const uint32_t slot = limni_slot_size(class) == 1 ? narrow[k] : wide[k];
-        largest = slot > largest ? slot : largest;
+    const uint32_t slot_size = limn_file_slot_size(class);
+    const uint8_t *slots = mesh->slots + run->first_slot;
+    for (uint32_t p = 0; p < run->patch_count; p++) {
+        if (!is_permutation(slots, slot_size, class->control_count)) return LIMN_ERROR_SLOT;
+        slots += (size_t) class->control_count * slot_size;
     }
-    return largest < class->control_count ? LIMN_OK : LIMN_ERROR_SLOT;
+    return LIMN_OK;
 }
 
 static limn_result validate_faces(const limn_mesh *mesh) {

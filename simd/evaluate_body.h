@@ -9,6 +9,13 @@
  */
 #include "../runtime/kernels.h"
 
+#include <float.h>
+
+#if defined(__FAST_MATH__)
+#error "fast-math reorders the sums that shared vertices depend on"
+#endif
+LIMN_STATIC_ASSERT(FLT_EVAL_METHOD == 0, "floats must be rounded to float (-mfpmath=sse)");
+
 /// Positions of one patch, relative to the origin: structure of arrays, in L1.
 typedef struct positions {
     _Alignas(64) float axes[3][LIMNI_ROW_MAX];

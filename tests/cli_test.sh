@@ -205,7 +205,7 @@ refuses 1 'torus.limn: unknown kind' bake torus.limn -o new.limn
 refuses 1 'no_folder/new.limn: cannot .*: No such file' bake "$torus" -o no_folder/new.limn
 refuses 1 'far: cannot write: Is a directory' bake "$torus" -o far
 refuses 1 'far/: cannot write: Is a directory' bake "$torus" -o far/
-refuses 1 'cannot' bake "$torus" -o ''
+refuses 2 'there is no output' bake "$torus" -o ''
 refuses 1 'torus.limn/new.limn: cannot .*: Not a directory' bake "$torus" -o torus.limn/new.limn
 if [ -c /dev/full ]; then refuses 1 '/dev/full: cannot write: No space' bake -q "$torus" -o /dev/full; fi
 
@@ -221,10 +221,25 @@ for steps in '' , weld, ,weld welt 'weld drop' weld,,drop WELD; do
     refuses 2 'cannot repair' bake "$torus" -o new.limn "--repair=$steps"
 done
 cp "$torus" both.obj
-refuses 2 'both.obj is input and output' bake both.obj -o both.obj
-ln both.obj other_name.obj
-refuses 2 'both.obj is input and output' bake both.obj -o ./other_name.obj
+refuses 2 'the output is a .limn file' bake both.obj -o both.obj
+refuses 2 'the output is a .limn file' bake "$torus" -o both.OFF
+ln both.obj other_name.limn
+refuses 2 'both.obj is input and output' bake both.obj -o ./other_name.limn
 cmp both.obj "$torus" || fail "the input was overwritten"
+
+# ---- Welding goes by place: surfaces that only touch stay apart
+
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n' >pillow.obj
+works bake pillow.obj -o pillow.limn
+works export pillow.limn --level 4 --weld -o pillow_dense.obj
+expect "welded vertices of a pillow" "$(grep -c '^v ' pillow_dense.obj)" $((3 + 15 * 3 + 105 * 2))
+
+# ---- What no face uses does not matter
+
+printf 'v 5 5 5\nv 6 5 5\nv 5 6 5\nv 5 5 6\nv 1e30 0 0\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' >far.obj
+works bake -q far.obj -o far.limn
+works export far.limn --level 1 --weld -o far_dense.obj
+expect "welded vertices beside an unused one" "$(grep -c '^v ' far_dense.obj)" 10
 
 # ---- Repair
 

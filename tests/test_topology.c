@@ -4,6 +4,7 @@
 #include "limn/format.h"
 #include "limn/limn.h"
 
+#include "../baker/patches.h"
 #include "check.h"
 
 #include <math.h>
@@ -642,7 +643,35 @@ static void test_triangulation_notes(void) {
     limn_baker_destroy(result.baker);
 }
 
+// ---- The baker's own check
+
+/// Patches that do not agree on an edge must not be written. They always agree; so one is made not to.
+static void test_disagreement(void) {
+    uint32_t faces[][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {3, 2, 1}};
+    float corners[][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    uint32_t offsets[] = {0, 3, 6, 9, 12};
+    limni_context context = {0};
+    limni_source source = {.name = "t",
+                           .positions = corners,
+                           .position_count = 4,
+                           .face_count = 4,
+                           .face_offsets = offsets,
+                           .face_corners = faces[0]};
+    const limni_rules rules = {0};
+    limni_classes classes = {0};
+    limni_patches patches;
+    limni_mesh mesh;
+    CHECK_EQUAL(limni_mesh_build(&context, &source, &mesh), LIMN_BAKE_OK);
+    CHECK_EQUAL(limni_patches_build(&context, &mesh, &rules, &classes, &patches), LIMN_BAKE_OK);
+    classes.items[0].prints[1].along[0] ^= 1;
+    CHECK_EQUAL(limni_patches_build(&context, &mesh, &rules, &classes, &patches),
+                LIMN_BAKE_INTERNAL);
+    CHECK_CONTAINS(context.error, "disagree on their common edge");
+    limni_release_all(&context);
+}
+
 int main(void) {
+    test_disagreement();
     test_refused();
     test_not_finite();
     test_nothing_added();

@@ -141,6 +141,32 @@ static void visit(const char *path) {
     unload(&s);
 }
 
+static void write_vertices(FILE *file, uint32_t count, double height) {
+    for (uint32_t v = 0; v < count; v++)
+        fprintf(file, "v %.6f %.6f %.6f\n", 900 + cos(6.283185307 * v / count),
+                -300 + sin(6.283185307 * v / count), v % 3 * 0.1);
+    fprintf(file, "v 900.1 -299.8 %.6f\nv 899.9 -300.2 -1.25\n", height);
+}
+
+/// What the files may not have: wide classes and compensated sums beside plain ones, a fan of boundary
+/// vertices, and a place far from 0.
+static void test_generated(uint32_t valence, bool closed) {
+    static const char path[] = "test_watertight_generated.obj";
+    FILE *const file = fopen(path, "w");
+    if (!CHECK(file)) return;
+    write_vertices(file, valence, 1.5);
+    for (uint32_t v = 1; v <= valence; v++) {
+        const uint32_t next = v % valence + 1;
+        if (!closed && v == valence) break;
+        fprintf(file, "f %u %u %u\n", v, next, valence + 1);
+        if (closed) fprintf(file, "f %u %u %u\n", next, v, valence + 2);
+    }
+    const int closed_file = fclose(file);
+    CHECK(closed_file == 0);
+    visit(path);
+    remove(path);
+}
+
 static void test_warren(const char *path) {
     subject s;
     if (CHECK(load(&s, path, 0, LIMN_WEIGHTS_WARREN))) {
@@ -195,6 +221,11 @@ int main(void) {
     CHECK(mesh_files_visit(visit) > 0);
     printf("%llu meshes (%llu of them repaired), %llu shared vertices compared\n", total_meshes,
            refused_meshes, total_vertices);
+    static const uint32_t valences[] = {3, 7, 20, 26, 64, 255, 300, 500};
+    for (int v = 0; v < 8; v++) {
+        test_generated(valences[v], true);
+        test_generated(valences[v] / 4 + 3, false);
+    }
     snprintf(path, sizeof path, "%s/imp.obj", getenv("LIMN_ASSETS"));
     test_warren(path);
     test_order_matters(path);

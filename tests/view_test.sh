@@ -100,6 +100,7 @@ expect_error 1 "$0" --png "$out"
 expect_error 1 "$file" --png "$out" --mesh 1000000
 expect_error 1 "$file" --png "$folder/error/no_folder/out.png"
 expect_error 1 "$file" --png "$folder"
+"$view" "$file" --png /dev/null --size 32x32 || fail "a picture for /dev/null"
 [ -c /dev/null ] || fail "/dev/null was replaced"
 
 expect_error 2

@@ -79,7 +79,8 @@ typedef struct limn_bake_mesh {
 
 typedef struct limn_baker limn_baker;
 
-/// A baker for one file. NULL desc: defaults. Returns NULL only when out of memory. Any thread; one
+/// A baker for one file. NULL desc: defaults. Returns NULL only when out of memory; limn_baker_error()
+/// and limn_baker_destroy() take NULL. Any thread; one
 /// thread at a time.
 limn_baker *limn_baker_create(const limn_bake_desc *desc);
 void limn_baker_destroy(limn_baker *baker);

@@ -39,7 +39,7 @@ extern "C" {
 /// The `mesh` of a chunk that belongs to the file and not to one of its meshes.
 #define LIMN_FORMAT_NO_MESH 0xffffffffu
 
-/// Chunk kinds: four characters, in file order.
+/// Chunk kinds: four characters, read as a little-endian number.
 #define LIMN_FORMAT_KIND(a, b, c, d)                                                               \
     ((uint32_t)(a) | (uint32_t)(b) << 8 | (uint32_t)(c) << 16 | (uint32_t)(d) << 24)
 
@@ -97,13 +97,18 @@ typedef struct limn_file_class {
     uint32_t reserved;
 } limn_file_class;
 
+/// Bytes per slot of the patches of a class.
+static inline uint32_t limn_file_slot_size(const limn_file_class *file_class) {
+    return file_class->control_count <= LIMN_FORMAT_NARROW_SLOTS ? 1 : 2;
+}
+
 typedef struct limn_file_mesh {
     uint32_t control_count;
     uint32_t patch_count;
     uint32_t run_count;
     uint32_t domain;      ///< limn_domain_kind
     uint64_t index_count; ///< entries of the indices chunk
-    float bounds_min[3];  ///< of the control points in the bind pose
+    float bounds_min[3];  ///< of the control points that faces use, in the bind pose
     float bounds_max[3];
     float origin[3]; ///< see limn_mesh.origin
     uint32_t reserved;

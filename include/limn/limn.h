@@ -175,7 +175,7 @@ typedef struct limn_mesh {
     uint32_t control_count;
     uint32_t patch_count; ///< one per base face
     uint32_t run_count;   ///< patches are ordered by class: runs of one class each
-    float bounds_min[3];  ///< of the bind pose's control points
+    float bounds_min[3];  ///< of the control points that faces use, in the bind pose
     float bounds_max[3];
     float origin[3]; ///< sums are taken relative to this point and it is added last, so that
                      ///< precision does not suffer far from 0; baked as 0, or the middle of bounds
@@ -190,7 +190,8 @@ typedef struct limn_mesh {
 } limn_mesh;
 
 /// Opens a .limn file in memory and validates all of it, so that nothing needs to be checked later.
-/// Safe on untrusted bytes. Does not allocate; takes time linear in blob_size; any thread.
+/// Safe on untrusted bytes, as long as they do not change while the view is used. Does not allocate;
+/// takes time linear in blob_size; any thread.
 ///
 /// pack       out: the view; untouched unless the result is LIMN_OK
 /// blob       [blob_size] bytes, starting on a multiple of 64; must outlive the view
@@ -247,8 +248,9 @@ typedef struct limn_output {
 /// Evaluates patches [begin, end) of a plan and writes their positions, three floats at the start
 /// of each vertex. Does not allocate, never fails; any number of threads may evaluate disjoint
 /// ranges of one plan into one output. Bytes of a vertex behind its position are left alone. The
-/// same input gives the same bits with every kernel, and shared vertices of neighbouring patches
-/// get the same bits.
+/// same input gives the same bits with every reproducible kernel, and shared vertices of neighbouring
+/// patches get the same bits with any. Both hold if all threads round to nearest and treat denormals
+/// alike, and where control points are finite.
 ///
 /// controls    [mesh->control_count][3] floats, model units, tightly packed; must not overlap the
 ///             output

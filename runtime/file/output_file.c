@@ -2,6 +2,7 @@
 #include "output_file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -13,22 +14,18 @@ static bool fail(limni_output_file *file, const char *what) {
     return false;
 }
 
-/// A file made by mkstemp is private; give it the permissions that a new file would have had.
-static void set_usual_mode(int descriptor) {
-    const mode_t mask = umask(0);
-    umask(mask);
-    (void)fchmod(descriptor, 0666 & ~mask);
-}
-
+/// Creates a file beside the target, with the usual permissions, under a name that is not taken.
 static int open_aside(limni_output_file *file) {
-    const size_t size = strlen(file->target) + sizeof ".XXXXXX";
+    const size_t size = strlen(file->target) + 48;
     file->aside = malloc(size);
     if (!file->aside) return -1;
-    snprintf(file->aside, size, "%s.XXXXXX", file->target);
-    const int descriptor = mkstemp(file->aside);
-    if (descriptor >= 0) {
-        set_usual_mode(descriptor);
-    } else {
+    int descriptor = -1;
+    for (int attempt = 0; attempt < 1000 && descriptor < 0; attempt++) {
+        snprintf(file->aside, size, "%s.%ld.%d.partial", file->target, (long)getpid(), attempt);
+        descriptor = open(file->aside, O_CREAT | O_EXCL | O_WRONLY, 0666);
+        if (descriptor < 0 && errno != EEXIST) break;
+    }
+    if (descriptor < 0) {
         free(file->aside);
         file->aside = NULL; // there is nothing to remove
     }

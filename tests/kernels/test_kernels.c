@@ -112,7 +112,7 @@ static void make(made *m) {
         fill_run(m, c, index, slot);
         table += (uint64_t)control_counts[c] * 160;
         index += (uint64_t)control_counts[c] * PATCHES;
-        slot += (uint64_t)control_counts[c] * PATCHES * limni_slot_size(&m->classes[c]);
+        slot += (uint64_t)control_counts[c] * PATCHES * limn_file_slot_size(&m->classes[c]);
     }
     m->mesh = (limn_mesh){.domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE),
                           .control_count = CONTROLS,
@@ -168,6 +168,25 @@ static void test_ranges(made *m, const limn_kernels *kernels) {
                 const size_t size = evaluate(m, kernels, level, strides[s], begin, end, actual);
                 CHECK(kernels->family == LIMN_FAMILY_FAST || memcmp(expected, actual, size) == 0);
             }
+        }
+    }
+}
+
+/// Every level is a prefix of the finest, by bits, whatever the stride: which ways to sum and to store
+/// a kernel takes must not show.
+static void test_prefix(made *m, const limn_kernels *kernels) {
+    evaluate(m, kernels, LIMN_LEVEL_MAX, 12, 0, m->mesh.patch_count, expected);
+    for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
+        for (uint32_t stride = 12; stride <= STRIDE_MAX; stride += 12) {
+            const size_t row_count = m->mesh.domain->row_counts[level];
+            bool same = true;
+            evaluate(m, kernels, level, stride, 0, m->mesh.patch_count, actual);
+            for (size_t v = 0; v < m->mesh.patch_count * row_count; v++) {
+                const size_t finest = v / row_count * 153 + v % row_count;
+                same &=
+                    memcmp(expected + GUARD + 12 * finest, actual + GUARD + stride * v, 12) == 0;
+            }
+            CHECK(same);
         }
     }
 }
@@ -270,6 +289,7 @@ static void test_kernels(made *m, const limn_kernels *kernels, point_kind kind) 
     if (kind == RANDOM && kernels->family == LIMN_FAMILY_REPRODUCIBLE) test_golden(m, kernels);
     test_ranges(m, kernels);
     test_split(m, kernels);
+    test_prefix(m, kernels);
 }
 
 int main(void) {
