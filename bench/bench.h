@@ -3,7 +3,15 @@
 #ifndef BENCH_H
 #define BENCH_H
 
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 int bench_bake(int argc, char **argv);
+int bench_kernels(int argc, char **argv);
+int bench_peers(int argc, char **argv);
 
 /// Seconds of a clock that only goes forward.
 double bench_seconds(void);
@@ -13,5 +21,12 @@ double bench_median(double *values, int count);
 
 /// One line on what ran where: version, compiler, flags, CPU.
 void bench_print_conditions(void);
+
+/// The CPU's name for itself; "" where it cannot be had.
+void bench_cpu_name(char *name, size_t size);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -12,6 +12,10 @@ static const struct {
 } benches[] = {
     {"bake", bench_bake,
      "time to bake, peak memory, and stored bytes beside OpenSubdiv's stencils"},
+    {"kernels", bench_kernels,
+     "time per patch of every kernel, and its share of what this core can do at most"},
+    {"peers", bench_peers,
+     "time per face beside OpenSubdiv, recursive subdivision and dense skinning"},
 };
 
 enum { BENCH_COUNT = sizeof benches / sizeof *benches };

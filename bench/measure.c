@@ -24,19 +24,22 @@ double bench_median(double *values, int count) {
     return count % 2 ? values[count / 2] : (values[count / 2 - 1] + values[count / 2]) / 2;
 }
 
-static void print_cpu(void) {
+void bench_cpu_name(char *name, size_t size) {
+    snprintf(name, size, "%s", "");
     char line[256];
     FILE *const file = fopen("/proc/cpuinfo", "r");
     while (file && fgets(line, sizeof line, file)) {
         if (strncmp(line, "model name", 10) != 0) continue;
-        printf("%s", strchr(line, ':') + 2);
+        line[strcspn(line, "\n")] = '\0';
+        snprintf(name, size, "%s", strchr(line, ':') + 2);
         break;
     }
     if (file) fclose(file);
 }
 
 void bench_print_conditions(void) {
-    printf("limn %d.%d.%d, commit %s, %s, flags %s, CPU ", LIMN_VERSION_MAJOR, LIMN_VERSION_MINOR,
-           LIMN_VERSION_PATCH, BENCH_COMMIT, BENCH_COMPILER, BENCH_FLAGS);
-    print_cpu();
+    char cpu[128];
+    bench_cpu_name(cpu, sizeof cpu);
+    printf("limn %d.%d.%d, commit %s, %s, flags %s, CPU %s\n", LIMN_VERSION_MAJOR,
+           LIMN_VERSION_MINOR, LIMN_VERSION_PATCH, BENCH_COMMIT, BENCH_COMPILER, BENCH_FLAGS, cpu);
 }

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT */
+#include "opensubdiv_refiner.h"
+
+#include "limn/limn.h"
+
+#include <opensubdiv/far/error.h>
+#include <opensubdiv/far/topologyDescriptor.h>
+
+#include <climits>
+#include <stdexcept>
+
+namespace Far = OpenSubdiv::Far;
+namespace Sdc = OpenSubdiv::Sdc;
+
+namespace {
+
+std::string reported; // what OpenSubdiv complained about since the last capture began
+
+void report(const char *text) {
+    if (!reported.empty()) reported += "; ";
+    reported += text;
+    while (!reported.empty() && reported.back() == '\n')
+        reported.pop_back();
+}
+
+void report_error(Far::ErrorType, const char *text) {
+    report(text);
+}
+
+} // namespace
+
+namespace limni_opensubdiv {
+
+error_capture::error_capture() {
+    reported.clear();
+    Far::SetErrorCallback(report_error);
+    Far::SetWarningCallback(report);
+}
+
+error_capture::~error_capture() {
+    Far::SetErrorCallback(nullptr);
+    Far::SetWarningCallback(nullptr);
+}
+
+void require(bool condition, const std::string &text) {
+    if (condition && reported.empty()) return;
+    throw std::runtime_error(reported.empty() ? text : "OpenSubdiv: " + reported);
+}
+
+namespace {
+
+std::string vertex_name(int vertex) {
+    return "vertex " + std::to_string(vertex);
+}
+
+/// OpenSubdiv counts in int, unchecked: 768 corners of level-4 faces and some 1800 stencil weights
+/// for each base face.
+constexpr uint32_t FACE_COUNT_MAX = 1000000;
+
+/// OpenSubdiv trusts its indices, and crashes or takes for non-manifold what this refuses by name.
+void require_faces(const limni_opensubdiv_mesh &mesh) {
+    require(mesh.position_count > 0 && mesh.position_count <= INT_MAX, "too few or many positions");
+    require(mesh.face_count > 0 && mesh.face_count <= FACE_COUNT_MAX, "too few or many faces");
+    require(mesh.level <= LIMN_LEVEL_MAX, "level " + std::to_string(mesh.level) + " is too fine");
+    for (size_t face = 0; face < mesh.face_count; face++) {
+        const uint32_t *v = mesh.faces + 3 * face;
+        const bool in_range =
+            v[0] < mesh.position_count && v[1] < mesh.position_count && v[2] < mesh.position_count;
+        const bool distinct = v[0] != v[1] && v[1] != v[2] && v[2] != v[0];
+        if (!in_range || !distinct)
+            require(false, "face " + std::to_string(face) +
+                               (in_range ? " uses a vertex twice" : " has an index out of range"));
+    }
+}
+
+/// OpenSubdiv accepts non-manifold meshes and gives them rules of its own (sharp creases), which
+/// are nobody's reference.
+void require_manifold(const Far::TopologyLevel &base) {
+    for (int edge = 0; edge < base.GetNumEdges(); edge++) {
+        if (!base.IsEdgeNonManifold(edge)) continue;
+        const Far::ConstIndexArray ends = base.GetEdgeVertices(edge);
+        require(false, "the edge between " + vertex_name(ends[0]) + " and " + vertex_name(ends[1]) +
+                           " is not manifold");
+    }
+    for (int vertex = 0; vertex < base.GetNumVertices(); vertex++) {
+        const bool used = base.GetVertexFaces(vertex).size() > 0;
+        if (used && base.IsVertexNonManifold(vertex))
+            require(false, vertex_name(vertex) + " is not manifold");
+    }
+}
+
+Sdc::Options scheme_options(limn_boundary boundary) {
+    Sdc::Options options;
+    options.SetVtxBoundaryInterpolation(boundary == LIMN_BOUNDARY_EDGE_AND_CORNER
+                                            ? Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER
+                                            : Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
+    return options;
+}
+
+} // namespace
+
+refiner_pointer create_refiner(const limni_opensubdiv_mesh &mesh) {
+    require_faces(mesh);
+    const std::vector<int> face_sizes(mesh.face_count, 3);
+    const std::vector<Far::Index> corners(mesh.faces, mesh.faces + size_t(3) * mesh.face_count);
+    Far::TopologyDescriptor descriptor;
+    descriptor.numVertices = int(mesh.position_count);
+    descriptor.numFaces = int(mesh.face_count);
+    descriptor.numVertsPerFace = face_sizes.data();
+    descriptor.vertIndicesPerFace = corners.data();
+
+    using factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
+    factory::Options options(Sdc::SCHEME_LOOP, scheme_options(mesh.boundary));
+    options.validateFullTopology = true;
+    refiner_pointer refiner(factory::Create(descriptor, options));
+    require(refiner != nullptr, "OpenSubdiv refused the mesh");
+    require_manifold(refiner->GetLevel(0));
+    return refiner;
+}
+
+} // namespace limni_opensubdiv

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * What everything that uses OpenSubdiv shares: its errors as exceptions, and a refiner for a base
+ * mesh. C++, for the baker's oracle and the benchmarks. OpenSubdiv reports errors through one
+ * callback of the process, so all this is for one thread at a time.
+ */
+#ifndef LIMNI_OPENSUBDIV_REFINER_H
+#define LIMNI_OPENSUBDIV_REFINER_H
+
+#include "opensubdiv.h"
+
+#include <opensubdiv/far/topologyRefiner.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace limni_opensubdiv {
+
+/// OpenSubdiv gives a text to a callback and goes on. As long as this lives, texts are kept for
+/// require().
+class error_capture {
+  public:
+    error_capture();
+    ~error_capture();
+    error_capture(const error_capture &) = delete;
+    error_capture &operator=(const error_capture &) = delete;
+};
+
+/// Throws `text`, or rather what OpenSubdiv said if it complained at all.
+void require(bool condition, const std::string &text);
+
+/// Runs `body` and turns what it throws into the text and the result of a C function.
+template <typename body_type> bool guard(char *error, size_t error_size, const body_type &body) {
+    error[0] = '\0';
+    try {
+        const error_capture capture;
+        body();
+        return true;
+    } catch (const std::bad_alloc &) {
+        std::snprintf(error, error_size, "out of memory in OpenSubdiv");
+    } catch (const std::exception &exception) {
+        std::snprintf(error, error_size, "%s", exception.what());
+    }
+    return false;
+}
+
+using refiner_pointer = std::unique_ptr<OpenSubdiv::Far::TopologyRefiner>;
+
+/// A refiner that is not refined yet. Throws when OpenSubdiv refuses the mesh, and what it would
+/// crash on or take for non-manifold by name.
+refiner_pointer create_refiner(const limni_opensubdiv_mesh &mesh);
+
+template <typename item_type> uint64_t bytes_of(const std::vector<item_type> &items) {
+    return uint64_t(items.size()) * sizeof(item_type);
+}
+
+} // namespace limni_opensubdiv
+
+#endif

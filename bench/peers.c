@@ -1,0 +1,297 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * limn-bench peers: Limn beside what one would otherwise use, on the same mesh, at the same points,
+ * in interleaved rounds within one process.
+ */
+#include "bench.h"
+#include "peers/allocate.h"
+#include "peers/peer.h"
+#include "peers/report.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char help[] =
+    "usage: limn-bench peers [OPTIONS] MESH...\n\n"
+    "Computes the same points of every MESH (.obj, .off) with Limn, with OpenSubdiv's limit "
+    "stencils and\n"
+    "its Bfr surfaces, with plain recursive Loop subdivision, and by skinning the refined mesh "
+    "itself.\n"
+    "Everything that does not depend on the frame is prepared beforehand. All must give the same "
+    "points.\n\n"
+    "  --rounds N    rounds, of all peers in turn; medians are shown (default 15)\n"
+    "  --level N     of subdivision, 0 to 4 (default 4)\n"
+    "  --threads N   for the rows with threads; 1: no such rows (default: one per processor, 8 at "
+    "most)\n"
+    "  --json FILE   results and conditions as JSON\n"
+    "  --csv FILE    the same as CSV\n";
+
+/// Of the diagonal. Float stencils and Bfr stay well below.
+#define DIFFERENCE_MAX 1e-4
+
+/// A peer works this long at least in each round, after one frame that is not timed.
+#define ROUND_SECONDS 1e-3
+
+typedef struct peers_options {
+    const char *json_path, *csv_path;
+    uint32_t rounds, level, threads;
+} peers_options;
+
+peer *peer_append(peer_list *list) {
+    if (list->count == PEER_MAX) abort();
+    return &list->peers[list->count++];
+}
+
+static bool add_peers(peer_list *list, const peer_scene *scene) {
+    bool good = peers_add_limn(list, scene);
+#ifdef BENCH_WITH_OPENSUBDIV
+    good = good && peers_add_stencils(list, scene) && peers_add_bfr(list, scene);
+#endif
+    return good && peers_add_loop(list, scene) && peers_add_dense(list, scene);
+}
+
+static void destroy_peers(peer_list *list) {
+    for (uint32_t p = 0; p < list->count; p++)
+        list->peers[p].destroy(list->peers[p].state);
+}
+
+// -------------------------------------------------------------------------------------------------
+// The same points
+
+static double find_diagonal(const peer_scene *scene) {
+    double squares = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        float low = INFINITY, high = -INFINITY;
+        for (uint32_t v = 0; v < scene->control_count; v++) {
+            low = fminf(low, scene->controls[v][axis]);
+            high = fmaxf(high, scene->controls[v][axis]);
+        }
+        squares += (double)(high - low) * (double)(high - low);
+    }
+    return sqrt(squares);
+}
+
+/// The largest distance to the first peer's points, over the diagonal; what is skinned starts from
+/// bones that all move alike.
+static double find_difference(const peer_scene *scene, const peer *first, const peer *other) {
+    double largest = 0;
+    const float *const bone = scene->bones[0];
+    for (uint32_t face = 0; face < scene->face_count; face++) {
+        for (uint32_t row = 0; row < scene->row_count; row++) {
+            const float *const a = first->position(first->state, face, row);
+            const float *const b = other->position(other->state, face, row);
+            double squares = 0;
+            for (int axis = 0; axis < 3; axis++) {
+                double expected = (double)a[axis];
+                if (other->skinned)
+                    expected = (double)bone[axis] * (double)a[0] +
+                               (double)bone[4 + axis] * (double)a[1] +
+                               (double)bone[8 + axis] * (double)a[2] + (double)bone[12 + axis];
+                const double distance = (double)b[axis] - expected;
+                squares += distance * distance;
+            }
+            // Not a number is a difference, too.
+            if (!(squares <= largest)) largest = squares;
+        }
+    }
+    return sqrt(largest) / find_diagonal(scene);
+}
+
+static bool check_points(peer_scene *scene, const peer_list *list, peer_result *results) {
+    scene_set_bones(scene, true);
+    bool good = true;
+    for (uint32_t p = 0; p < list->count; p++) {
+        const peer *const other = &list->peers[p];
+        other->run(other->state);
+        results[p].difference = find_difference(scene, &list->peers[0], other);
+        if (results[p].difference <= DIFFERENCE_MAX) continue;
+        fprintf(stderr, "limn-bench: %s: %s (%s, %u threads) differs by %.2g of the diagonal\n",
+                scene->name, other->name, other->isa, other->threads, results[p].difference);
+        good = false;
+    }
+    scene_set_bones(scene, false);
+    return good;
+}
+
+// -------------------------------------------------------------------------------------------------
+// Rounds
+
+static double time_frames(const peer *timed, uint32_t frames) {
+    const double start = bench_seconds();
+    for (uint32_t frame = 0; frame < frames; frame++)
+        timed->run(timed->state);
+    return bench_seconds() - start;
+}
+
+/// times: [peer][round], seconds per frame.
+static void run_rounds(const peer_list *list, uint32_t rounds, double *times) {
+    uint32_t frames[PEER_MAX];
+    for (uint32_t p = 0; p < list->count; p++)
+        frames[p] = 1 + (uint32_t)(ROUND_SECONDS / time_frames(&list->peers[p], 1));
+    for (uint32_t round = 0; round < rounds; round++) {
+        for (uint32_t p = 0; p < list->count; p++) {
+            time_frames(&list->peers[p], 1); // the one before has emptied the caches
+            times[p * rounds + round] = time_frames(&list->peers[p], frames[p]) / frames[p];
+        }
+    }
+}
+
+/// Limn doing the same, or NULL.
+static const peer *find_limn(const peer_list *list, const peer *other) {
+    for (uint32_t p = 0; p < list->count; p++) {
+        const peer *const limn = &list->peers[p];
+        const bool same_output =
+            (limn->output == PEER_POSITION) == (other->output == PEER_POSITION);
+        if (limn->best_limn && same_output && limn->threads == other->threads &&
+            limn->skinned == other->skinned)
+            return limn;
+    }
+    return NULL;
+}
+
+/// The median over the rounds of the ratio in each round, which passing loads disturb least.
+static double find_ratio(const double *times, const double *limn_times, uint32_t rounds) {
+    double *const ratios = bench_allocate(rounds, sizeof *ratios);
+    for (uint32_t round = 0; round < rounds; round++)
+        ratios[round] = times[round] / limn_times[round];
+    const double ratio = bench_median(ratios, (int)rounds);
+    free(ratios);
+    return ratio;
+}
+
+static void summarize(const peer_scene *scene, const peer_list *list, uint32_t rounds,
+                      double *times, peer_result *results) {
+    for (uint32_t p = 0; p < list->count; p++) {
+        const peer *const what = &list->peers[p];
+        const peer *const limn = find_limn(list, what);
+        results[p].what = *what;
+        memcpy(results[p].mesh, scene->name, sizeof scene->name);
+        results[p].level = scene->level;
+        results[p].points_per_face = what->points == PEER_PATCH_POINTS
+                                         ? scene->row_count
+                                         : (double)scene->unique_count / scene->face_count;
+        results[p].bytes_per_face = (double)what->byte_count / scene->face_count;
+        results[p].ratio_to_limn =
+            limn ? find_ratio(times + p * rounds, times + (limn - list->peers) * rounds, rounds)
+                 : (double)NAN;
+    }
+    for (uint32_t p = 0; p < list->count; p++) // last: it reorders the rounds
+        results[p].ns_per_face =
+            1e9 * bench_median(times + p * rounds, (int)rounds) / scene->face_count;
+}
+
+static bool compare(peer_scene *scene, const peer_list *list, uint32_t rounds,
+                    peer_result *results) {
+    if (!check_points(scene, list, results)) return false;
+    double *const times = bench_allocate((size_t)list->count * rounds, sizeof *times);
+    run_rounds(list, rounds, times);
+    summarize(scene, list, rounds, times, results);
+    free(times);
+    return true;
+}
+
+/// Appends the results of one mesh, and prints them.
+static bool bench_mesh(const char *path, const peers_options *options, peer_result *results,
+                       uint32_t *result_count) {
+    peer_scene scene;
+    peer_list list = {.count = 0};
+    const bool good = scene_create(&scene, path, options->level, options->threads) &&
+                      add_peers(&list, &scene) &&
+                      compare(&scene, &list, options->rounds, results + *result_count);
+    if (good) {
+        printf("\n%s: %u faces, %u control points, level %u: %u vertices a patch\n", scene.name,
+               scene.face_count, scene.control_count, scene.level, scene.row_count);
+        report_print_head();
+        for (uint32_t p = 0; p < list.count; p++)
+            report_print(&results[*result_count + p]);
+        *result_count += list.count;
+    }
+    destroy_peers(&list);
+    scene_destroy(&scene);
+    return good;
+}
+
+// -------------------------------------------------------------------------------------------------
+// The command
+
+/// Returns false when `text` is not a number in the range.
+static bool read_number(const char *text, uint32_t low, uint32_t high, uint32_t *number) {
+    char *end;
+    const unsigned long value = strtoul(text, &end, 10);
+    if (*text < '0' || *text > '9' || *end || value < low || value > high) {
+        fprintf(stderr, "limn-bench: '%s' is not a number from %u to %u\n", text, low, high);
+        return false;
+    }
+    *number = (uint32_t)value;
+    return true;
+}
+
+static uint32_t count_processors(void) {
+    const long count = sysconf(_SC_NPROCESSORS_ONLN);
+    return count < 1 ? 1 : count > 8 ? 8 : (uint32_t)count;
+}
+
+/// Returns the exit status, or -1 to go on.
+static int read_options(int argc, char **argv, peers_options *options) {
+    static const struct option names[] = {{"rounds", required_argument, NULL, 'r'},
+                                          {"level", required_argument, NULL, 'l'},
+                                          {"threads", required_argument, NULL, 't'},
+                                          {"json", required_argument, NULL, 'j'},
+                                          {"csv", required_argument, NULL, 'c'},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {0}};
+    for (int option; (option = getopt_long(argc, argv, "h", names, NULL)) != -1;) {
+        bool good = true;
+        switch (option) {
+        case 'r':
+            good = read_number(optarg, 1, 10000, &options->rounds);
+            break;
+        case 'l':
+            good = read_number(optarg, 0, LIMN_LEVEL_MAX, &options->level);
+            break;
+        case 't':
+            good = read_number(optarg, 1, 256, &options->threads);
+            break;
+        case 'j':
+            options->json_path = optarg;
+            break;
+        case 'c':
+            options->csv_path = optarg;
+            break;
+        case 'h':
+            fputs(help, stdout);
+            return 0;
+        default:
+            good = false;
+        }
+        if (!good) return 2;
+    }
+    if (optind < argc) return -1;
+    fputs("limn-bench: no mesh; see limn-bench peers --help\n", stderr);
+    return 2;
+}
+
+int bench_peers(int argc, char **argv) {
+    peers_options options = {.rounds = 15, .level = LIMN_LEVEL_MAX, .threads = count_processors()};
+    const int status = read_options(argc, argv, &options);
+    if (status >= 0) return status;
+
+    bench_print_conditions();
+    peer_result *const results =
+        bench_allocate((size_t)(argc - optind) * PEER_MAX, sizeof *results);
+    uint32_t count = 0;
+    bool good = true;
+    for (int i = optind; i < argc; i++)
+        good &= bench_mesh(argv[i], &options, results, &count);
+    report_print_notes();
+    if (options.json_path)
+        good &= report_write_json(options.json_path, results, count, options.rounds);
+    if (options.csv_path)
+        good &= report_write_csv(options.csv_path, results, count, options.rounds);
+    free(results);
+    return good ? 0 : 1;
+}

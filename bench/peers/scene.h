@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: MIT */
+/* One mesh as all peers get it, and what they have in common. */
+#ifndef SCENE_H
+#define SCENE_H
+
+#include "team.h"
+
+#include "limn/limn.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define SCENE_BONE_COUNT 32
+#define SCENE_NO_VERTEX 0xffffffffu
+
+/// A rigid transformation as four columns, each padded to four floats.
+typedef float scene_bone[16];
+
+/// A row of a face is a row of the triangle domain with corner c of the face as corner c.
+typedef struct peer_scene {
+    char name[64];
+    uint32_t level;
+    uint32_t row_count;                                      ///< of a face at that level
+    uint16_t row_at[LIMN_GRID_SIZE + 1][LIMN_GRID_SIZE + 1]; ///< the row at grid point i, j
+    const limn_domain *domain;
+    float (*controls)[3]; ///< [control_count]
+    uint32_t control_count;
+    uint32_t (*faces)[3]; ///< [face_count] in the order of the file
+    uint32_t face_count;
+
+    const void *blob; ///< baked from the above, in memory
+    size_t blob_size;
+    double bake_ms;
+    struct limn_baker *baker; ///< owns the blob
+
+    /// [face_count][row_count] vertices of the refined mesh, numbered as by topology_refine().
+    uint32_t *refined;
+    /// [face_count][row_count] the same, numbered as the rows of one face after the other first
+    /// meet them.
+    uint32_t *unique;
+    uint32_t unique_count;
+    uint32_t *unique_rows; ///< [unique_count] face * row_count + row where it is first met
+
+    scene_bone *bones; ///< [SCENE_BONE_COUNT]
+    team *threads;     ///< NULL: one thread only
+} peer_scene;
+
+/// Reads, repairs and bakes a mesh. False after a message; destroy it all the same.
+bool scene_create(peer_scene *scene, const char *path, uint32_t level, uint32_t thread_count);
+void scene_destroy(peer_scene *scene);
+
+/// The row of a face that is row `row` of its patch, of which corner c is corner c + rotation of the
+/// face.
+uint32_t scene_face_row(const peer_scene *scene, uint32_t row, uint32_t rotation);
+
+/// Makes all bones equal, a rotation and a shift, so that skinning any points with any weights moves
+/// them rigidly; or all different.
+void scene_set_bones(peer_scene *scene, bool equal);
+
+/// Numbers in [0, 1), the same in every run.
+float scene_random(uint32_t *seed);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
