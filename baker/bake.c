@@ -25,7 +25,8 @@ limn_baker *limn_baker_create(const limn_bake_desc *desc) {
     if (!baker) return NULL;
     if (desc) baker->context.desc = *desc;
     baker->rules = (limni_rules){.weights = baker->context.desc.weights,
-                                 .boundary = baker->context.desc.boundary};
+                                 .boundary = baker->context.desc.boundary,
+                                 .normals = baker->context.desc.normals};
     return baker;
 }
 

@@ -27,9 +27,15 @@ typedef struct limni_class {
     uint32_t control_count;
     uint32_t valences[3];      ///< of the first key that has this table
     uint32_t boundary_corners; ///< bit c
-    float *table;              ///< [control_count][LIMNI_TABLE_STRIDE]
+    uint32_t table_count;      ///< 1, or 3 with the tangents
+    float *table;              ///< [table_count][control_count][LIMNI_TABLE_STRIDE]
     limni_edge_prints *prints; ///< [control_count]
 } limni_class;
+
+/// Bytes of the tables of a class.
+static inline size_t limni_class_table_size(const limni_class *class) {
+    return (size_t) class->table_count * class->control_count * LIMNI_TABLE_STRIDE * sizeof(float);
+}
 
 /// A topology, and the table that it uses.
 typedef struct limni_class_key {

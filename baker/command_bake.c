@@ -19,6 +19,7 @@ static const char help[] =
     "      --weights NAME    vertex weights: loop (default) or warren\n"
     "      --boundary NAME   edge-only (default): boundaries are smooth curves;\n"
     "                        edge-and-corner: boundary vertices of a single face stay in place\n"
+    "      --normals NAME    none (default), or exact: store tangents of the limit surface\n"
     "      --repair[=STEPS]  mend what would be refused, and say so; STEPS of, separated by "
     "commas:\n"
     "                        weld   merge control points whose positions are equal\n"
@@ -63,12 +64,13 @@ static void print_progress(void *user, const char *step, uint32_t done, uint32_t
     fflush(stderr);
 }
 
-enum { OPTION_WEIGHTS = 256, OPTION_BOUNDARY, OPTION_REPAIR };
+enum { OPTION_WEIGHTS = 256, OPTION_BOUNDARY, OPTION_NORMALS, OPTION_REPAIR };
 
 static const struct option options[] = {
     {"output", required_argument, NULL, 'o'},
     {"weights", required_argument, NULL, OPTION_WEIGHTS},
     {"boundary", required_argument, NULL, OPTION_BOUNDARY},
+    {"normals", required_argument, NULL, OPTION_NORMALS},
     {"repair", optional_argument, NULL, OPTION_REPAIR},
     {"quiet", no_argument, NULL, 'q'},
     {"help", no_argument, NULL, 'h'},
@@ -96,6 +98,11 @@ static int parse_option(int option, arguments *given) {
         choice = choose(optarg, "edge-only", "edge-and-corner");
         if (choice < 0) return limni_usage_error("bake", "there is no boundary rule '%s'", optarg);
         given->desc.boundary = (limn_boundary)choice;
+        return LIMNI_EXIT_OK;
+    case OPTION_NORMALS:
+        choice = choose(optarg, "none", "exact");
+        if (choice < 0) return limni_usage_error("bake", "there are no normals '%s'", optarg);
+        given->desc.normals = (limn_normals)choice;
         return LIMNI_EXIT_OK;
     case OPTION_REPAIR:
         if (!limni_parse_repair(optarg, &given->desc.repair))

@@ -101,6 +101,12 @@ static int verify(const arguments *given, const limn_pack *pack) {
            "diagonal %g: largest %.3g (face %u), mean %.3g\n",
            mesh.name, (unsigned long long)comparison.vertex_count, mesh.patch_count,
            comparison.diagonal, comparison.largest, comparison.largest_face, comparison.mean);
+    if (comparison.normal_count)
+        printf("%s: angle between normals in radians: largest %.3g (face %u), mean %.3g; "
+               "%llu of %llu at degenerate points left out\n",
+               mesh.name, comparison.largest_angle, comparison.largest_angle_face,
+               comparison.mean_angle, (unsigned long long)comparison.degenerate_count,
+               (unsigned long long)(comparison.normal_count + comparison.degenerate_count));
     fflush(stdout);
     const double allowed =
         given->tolerance >= 0 ? given->tolerance : default_tolerance + comparison.rounding;

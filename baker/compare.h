@@ -9,9 +9,15 @@
 typedef struct limni_comparison {
     double diagonal; ///< of the control points' bounding box
     double rounding; ///< what rounding the result to floats alone may add, relative to the diagonal
-    double largest, mean;  ///< distances, relative to the diagonal
-    uint32_t largest_face; ///< where the largest is: a triangle of the source, from 0
-    uint64_t vertex_count; ///< compared
+    double largest, mean;             ///< distances, relative to the diagonal
+    uint32_t largest_face;            ///< where the largest is: a triangle of the source, from 0
+    uint64_t vertex_count;            ///< compared
+    uint64_t normal_count;            ///< compared, if the mesh has normals
+    uint64_t degenerate_count;        ///< not compared: the tangents span next to nothing
+    double largest_angle, mean_angle; ///< between normals, in radians
+    uint32_t largest_angle_face;
+    double reach;          ///< the largest coordinate
+    double largest_excess; ///< of an angle over what rounding such coordinates to floats explains
 } limni_comparison;
 
 /// Compares the bind pose at level 4, all 153 rows of every face, with OpenSubdiv's answer for the

@@ -3,20 +3,39 @@
 
 static const limni_fixed pi = 3622009729038561421;
 
-/// sin(x) for 0 <= x <= pi/2 by its Taylor series, until a term vanishes.
-static limni_fixed sine(limni_fixed x) {
+/// The Taylor series that starts with `term`, the one of degree `degree`, until a term vanishes.
+static limni_fixed taylor(limni_fixed term, int degree, limni_fixed x) {
     const limni_fixed square = limni_fixed_multiply(x, x);
-    limni_fixed sum = 0, term = x;
-    for (int k = 1; term != 0; k += 2) {
+    limni_fixed sum = 0;
+    for (; term != 0; degree += 2) {
         sum += term;
         term = (limni_fixed)limni_wide_divide(-(limni_wide)limni_fixed_multiply(term, square),
-                                              (limni_wide)(k + 1) * (k + 2));
+                                              (limni_wide)(degree + 1) * (degree + 2));
     }
     return sum;
 }
 
-limni_fixed limni_fixed_cosine(uint32_t n) {
-    // The half angle keeps the argument, and with it every term of the series, below 2.
-    const limni_fixed s = sine((limni_fixed)limni_wide_divide(pi, n));
-    return LIMNI_FIXED_ONE - 2 * limni_fixed_multiply(s, s);
+/// The first quadrant: r / 4n of a turn, 0 <= r <= n. Beyond an eighth of a turn, mirrored.
+static limni_fixed_unit quadrant(uint64_t r, uint32_t n) {
+    if (2 * r > n) {
+        const limni_fixed_unit mirrored = quadrant(n - r, n);
+        return (limni_fixed_unit){.cosine = mirrored.sine, .sine = mirrored.cosine};
+    }
+    const limni_fixed x = (limni_fixed)limni_wide_divide((limni_wide)pi * r, 2 * (limni_wide)n);
+    return (limni_fixed_unit){.cosine = taylor(LIMNI_FIXED_ONE, 0, x), .sine = taylor(x, 1, x)};
+}
+
+limni_fixed_unit limni_fixed_turn(uint32_t j, uint32_t n) {
+    const uint64_t fourfold = 4 * (uint64_t)(j % n);
+    const limni_fixed_unit unit = quadrant(fourfold % n, n);
+    switch (fourfold / n) {
+    case 0:
+        return unit;
+    case 1:
+        return (limni_fixed_unit){.cosine = -unit.sine, .sine = unit.cosine};
+    case 2:
+        return (limni_fixed_unit){.cosine = -unit.cosine, .sine = -unit.sine};
+    default:
+        return (limni_fixed_unit){.cosine = unit.sine, .sine = -unit.cosine};
+    }
 }

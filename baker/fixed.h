@@ -32,13 +32,24 @@ static inline limni_fixed limni_fixed_multiply(limni_fixed a, limni_fixed b) {
     return limni_fixed_round((limni_wide)a * b);
 }
 
+/// a / b in Q4.60; the result must be below 8.
+static inline limni_fixed limni_fixed_divide(limni_fixed a, limni_fixed b) {
+    const limni_wide scaled = (limni_wide)a * LIMNI_FIXED_ONE;
+    return (limni_fixed)(b > 0 ? limni_wide_divide(scaled, b)
+                               : -limni_wide_divide(scaled, -(limni_wide)b));
+}
+
 /// The ratio of two integers; |numerator / denominator| < 8, denominator > 0.
 static inline limni_fixed limni_fixed_ratio(int64_t numerator, int64_t denominator) {
     return (limni_fixed)limni_wide_divide((limni_wide)numerator * LIMNI_FIXED_ONE, denominator);
 }
 
-/// cos(2 pi / n) for n >= 2, to 1e-17. No libm: its last bit differs between versions.
-limni_fixed limni_fixed_cosine(uint32_t n);
+/// The point at j/n of a turn on the unit circle, n >= 1, to 1e-17. No libm: its last bit differs between
+/// versions. Mirrored angles give mirrored numbers, exactly.
+typedef struct limni_fixed_unit {
+    limni_fixed cosine, sine;
+} limni_fixed_unit;
+limni_fixed_unit limni_fixed_turn(uint32_t j, uint32_t n);
 
 /// The nearest float; exact halves to even. Every host converts integers to floats alike.
 static inline float limni_fixed_to_float(limni_fixed a) {

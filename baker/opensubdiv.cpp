@@ -33,8 +33,12 @@ struct point {
     }
 };
 
-/// The limit position of every vertex of the refiner's last level.
-std::vector<point> limit_points(const Far::TopologyRefiner &refiner, const float *positions) {
+/// Limit positions and tangents of every vertex of the refiner's last level.
+struct limit_surface {
+    std::vector<point> points, first, second;
+};
+
+limit_surface limit_points(const Far::TopologyRefiner &refiner, const float *positions) {
     std::vector<point> points(size_t(refiner.GetLevel(0).GetNumVertices()));
     for (size_t i = 0; i < points.size(); i++)
         points[i] = {{positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]}};
@@ -45,8 +49,11 @@ std::vector<point> limit_points(const Far::TopologyRefiner &refiner, const float
         primvar.Interpolate(level, points, finer);
         points.swap(finer);
     }
-    std::vector<point> limit(points.size());
-    primvar.Limit(points, limit);
+    limit_surface limit;
+    limit.points.resize(points.size());
+    limit.first.resize(points.size());
+    limit.second.resize(points.size());
+    primvar.Limit(points, limit.points, limit.first, limit.second);
     return limit;
 }
 
@@ -120,13 +127,14 @@ class face_grid {
     Far::Index vertices_[LIMN_GRID_SIZE + 1][LIMN_GRID_SIZE + 1];
 };
 
-void evaluate_limit(const limni_opensubdiv_mesh &mesh, double (*limit)[3]) {
+void evaluate_limit(const limni_opensubdiv_mesh &mesh, double (*limit)[3],
+                    double (*tangents)[2][3]) {
     const refiner_pointer refiner = create_refiner(mesh);
     Far::TopologyRefiner::UniformOptions options(int(mesh.level));
     options.fullTopologyInLastLevel = true; // without it Limit() prints, and returns garbage
     if (mesh.level > 0) refiner->RefineUniform(options);
-    const std::vector<point> points = limit_points(*refiner, mesh.positions);
-    require(points.size() > 0, "OpenSubdiv made no limit points");
+    const limit_surface surface = limit_points(*refiner, mesh.positions);
+    require(surface.points.size() > 0, "OpenSubdiv made no limit points");
 
     const limn_domain *domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE);
     face_grid grid(*refiner);
@@ -134,8 +142,13 @@ void evaluate_limit(const limni_opensubdiv_mesh &mesh, double (*limit)[3]) {
         grid.walk(Far::Index(face));
         for (uint32_t row = 0; row < domain->row_counts[mesh.level]; row++, limit++) {
             const Far::Index vertex = grid.vertex(domain->rows[row].i, domain->rows[row].j);
-            for (int axis = 0; axis < 3; axis++)
-                (*limit)[axis] = points[size_t(vertex)].v[axis];
+            for (int axis = 0; axis < 3; axis++) {
+                (*limit)[axis] = surface.points[size_t(vertex)].v[axis];
+                if (!tangents) continue;
+                (*tangents)[0][axis] = surface.first[size_t(vertex)].v[axis];
+                (*tangents)[1][axis] = surface.second[size_t(vertex)].v[axis];
+            }
+            if (tangents) tangents++;
         }
     }
 }
@@ -216,9 +229,9 @@ limni_opensubdiv_stencils measure_stencils(const limni_opensubdiv_mesh &mesh, bo
 
 } // namespace
 
-bool limni_opensubdiv_limit(const limni_opensubdiv_mesh *mesh, double (*limit)[3], char *error,
-                            size_t error_size) {
-    return guard(error, error_size, [&] { evaluate_limit(*mesh, limit); });
+bool limni_opensubdiv_limit(const limni_opensubdiv_mesh *mesh, double (*limit)[3],
+                            double (*tangents)[2][3], char *error, size_t error_size) {
+    return guard(error, error_size, [&] { evaluate_limit(*mesh, limit, tangents); });
 }
 
 bool limni_opensubdiv_stencil_bytes(const limni_opensubdiv_mesh *mesh, bool shared,

@@ -249,6 +249,8 @@ limn_bake_status limni_patches_build(limni_context *context, const limni_mesh *m
     LIMNI_TRY(order_faces(context, mesh, classes, &assigned, patches));
     LIMNI_TRY(list_controls(context, classes, &assigned, &classifier, patches));
     limni_classifier_end(context, &classifier);
+    if (rules->normals == LIMN_NORMALS_EXACT)
+        LIMNI_TRY(limni_control_normals_build(context, mesh, rules, &patches->normals));
     limni_release(context, assigned.keys);
     limni_release(context, assigned.rotations);
     return LIMN_BAKE_OK;

@@ -4,6 +4,7 @@
 #define LIMNI_PATCHES_H
 
 #include "classes.h"
+#include "control_normals.h"
 #include "limn/format.h"
 
 typedef struct limni_patches {
@@ -14,7 +15,8 @@ typedef struct limni_patches {
     uint32_t *faces;   ///< [patch_count] face << 2 | rotation
     uint32_t *indices; ///< [index_count]
     uint8_t *slots;
-    uint64_t slots_size; ///< in bytes
+    uint64_t slots_size;           ///< in bytes
+    limni_control_normals normals; ///< empty without normals
 } limni_patches;
 
 /// Classifies every face of a mesh and lists its patches; adds the classes that are new. Checks

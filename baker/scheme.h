@@ -14,6 +14,7 @@
 typedef struct limni_rules {
     limn_weights weights;
     limn_boundary boundary;
+    limn_normals normals;
 } limni_rules;
 
 typedef enum limni_vertex_rule {
@@ -37,6 +38,13 @@ limni_vertex_rule limni_loop_rule(const limni_rules *rules, bool closed, uint32_
 /// Weights of a mask: [0] of the vertex itself, [1 + r] of ring vertex r. They sum to exactly 1.
 void limni_loop_vertex_mask(const limni_rules *rules, const limni_star *star, limni_fixed *weights);
 void limni_loop_limit_mask(const limni_rules *rules, const limni_star *star, limni_fixed *weights);
+
+/// Weights of two tangents of the limit surface at a vertex, as above; they sum to 0. Their cross product
+/// points to the side from which the ring is counter-clockwise. In a closed ring `along` points towards
+/// ring vertex `start`, and starting from the opposite vertex of an even ring negates both exactly; in an
+/// open ring `along` follows the boundary.
+void limni_loop_tangent_masks(const limni_star *star, uint32_t start, limni_fixed *along,
+                              limni_fixed *across);
 
 /// Weights of the new vertex on an edge: of its two ends each, and of the two opposite vertices
 /// each.

@@ -14,7 +14,7 @@ limni_vertex_rule limni_loop_rule(const limni_rules *rules, bool closed, uint32_
 
 /// Loop: b(n) / n with b(n) = (40 - (3 + 2 cos(2 pi / n))^2) / 64.
 static limni_fixed loop_weight(uint32_t n) {
-    const limni_fixed root = 3 * LIMNI_FIXED_ONE + 2 * limni_fixed_cosine(n);
+    const limni_fixed root = 3 * LIMNI_FIXED_ONE + 2 * limni_fixed_turn(1, n).cosine;
     const limni_wide square =
         ((limni_wide)root * root) >> LIMNI_FIXED_BITS; // up to 25: too wide for Q4.60
     return (limni_fixed)limni_wide_divide(40 * (limni_wide)LIMNI_FIXED_ONE - square,
@@ -59,6 +59,66 @@ void limni_loop_vertex_mask(const limni_rules *rules, const limni_star *star,
 
 void limni_loop_limit_mask(const limni_rules *rules, const limni_star *star, limni_fixed *weights) {
     fill_mask(star, limit_ring_weight(rules, star->count), limni_fixed_ratio(1, 6), weights);
+}
+
+// ---- Tangents
+
+static void smooth_tangents(const limni_star *star, uint32_t start, limni_fixed *along,
+                            limni_fixed *across) {
+    along[0] = across[0] = 0;
+    for (uint32_t r = 0; r < star->count; r++) {
+        const limni_fixed_unit unit = limni_fixed_turn(r + star->count - start, star->count);
+        along[1 + r] = unit.cosine;
+        across[1 + r] = unit.sine;
+    }
+}
+
+/// Across a boundary, pointing into the surface: the left eigenvector of the boundary vertex's subdivision
+/// matrix that is symmetric and sin(k z), z = pi / (n - 1), on the inner neighbours k. Its eigenvalue is
+/// 3/8 + cos(z) / 4; the weights of the ends and of the vertex solve the two equations that are left. For
+/// n = 3 and 4 these are the masks (-1; 0 1 0) and (-2; -1 2 2 -1). The mask in print for n >= 5 (Hoppe,
+/// Lomont) belongs to Hoppe's boundary rules and not to the cubic B-spline's. All times sin(z), so that
+/// no term is large.
+static void boundary_tangent(const limni_star *star, limni_fixed *across) {
+    const limni_fixed one = LIMNI_FIXED_ONE;
+    const uint32_t n = star->count;
+    if (n == 2) { // no inner neighbours: eigenvalue 1/4
+        across[0] = -2 * one;
+        across[1] = across[2] = one;
+        return;
+    }
+    const limni_fixed_unit z = limni_fixed_turn(1, 2 * (n - 1));
+    const limni_fixed eigenvalue = 3 * (one / 8) + z.cosine / 4;
+    const limni_fixed square = limni_fixed_multiply(z.sine, z.sine);
+    const limni_fixed sum = one + z.cosine; // of the inner weights: sin(z) cot(z / 2)
+    const limni_fixed determinant =
+        limni_fixed_multiply(eigenvalue - one / 2, eigenvalue - 3 * (one / 4)) - one / 8;
+    const limni_fixed end =
+        limni_fixed_multiply(square, eigenvalue - 3 * (one / 4)) / 8 + 3 * (sum / 64);
+    const limni_fixed centre =
+        limni_fixed_multiply(3 * (sum / 8), eigenvalue - one / 2) + square / 8;
+    across[0] = limni_fixed_divide(centre, determinant);
+    across[1] = across[n] = limni_fixed_divide(end, determinant);
+    for (uint32_t k = 1; k < n - 1; k++)
+        across[1 + k] = limni_fixed_multiply(z.sine, limni_fixed_turn(k, 2 * (n - 1)).sine);
+}
+
+void limni_loop_tangent_masks(const limni_star *star, uint32_t start, limni_fixed *along,
+                              limni_fixed *across) {
+    if (star->rule == LIMNI_VERTEX_SMOOTH) {
+        smooth_tangents(star, start, along, across);
+        return;
+    }
+    for (uint32_t w = 0; w <= star->count; w++)
+        along[w] = across[w] = 0;
+    along[1] = LIMNI_FIXED_ONE;
+    if (star->rule == LIMNI_VERTEX_CORNER) {
+        along[0] = across[0] = -LIMNI_FIXED_ONE;
+        across[star->count] = LIMNI_FIXED_ONE;
+    } else {
+        along[star->count] = -LIMNI_FIXED_ONE;
+        boundary_tangent(star, across);
+    }
 }
 
 limni_edge_mask limni_loop_edge_mask(bool boundary) {

@@ -30,7 +30,7 @@ typedef struct subdivision {
     const limn_domain *domain;
     uint32_t control_count;
     limni_wide *sums;     ///< [control_count]
-    limni_fixed *weights; ///< of a vertex mask
+    limni_fixed *weights; ///< of two vertex masks
 } subdivision;
 
 // ---- Masks
@@ -56,13 +56,13 @@ static void end_sum(const subdivision *s, limni_fixed *dst) {
         dst[k] = limni_fixed_round(s->sums[k]);
 }
 
-/// Applies the vertex mask in s->weights around core vertex v.
+/// Applies a vertex mask around core vertex v.
 static void apply_vertex_mask(const subdivision *s, const complex *c, uint32_t v,
-                              limni_fixed *dst) {
+                              const limni_fixed *weights, limni_fixed *dst) {
     begin_sum(s);
-    add_to_sum(s, c, v, s->weights[0]);
+    add_to_sum(s, c, v, weights[0]);
     for (uint32_t r = 0; r < c->stars[v].count; r++)
-        add_to_sum(s, c, c->stars[v].ring[r], s->weights[1 + r]);
+        add_to_sum(s, c, c->stars[v].ring[r], weights[1 + r]);
     end_sum(s, dst);
 }
 
@@ -230,7 +230,7 @@ static limn_bake_status refine(const subdivision *s, complex *c, uint32_t next_c
 
     for (uint32_t v = 0; v < c->core_count; v++) {
         limni_loop_vertex_mask(s->rules, &c->stars[v], s->weights);
-        apply_vertex_mask(s, c, v, vertex_of(s, next, v));
+        apply_vertex_mask(s, c, v, s->weights, vertex_of(s, next, v));
         for (uint32_t r = 0; r < c->stars[v].count; r++)
             apply_edge_mask(s, c, v, r, vertex_of(s, next, c->edge_points[v][r]));
     }
@@ -263,13 +263,43 @@ static limn_bake_status begin(const subdivision *s, const limni_neighbourhood *n
 static void project_to_limit(const subdivision *s, const complex *c, limni_fixed *rows) {
     for (uint32_t row = 0; row < c->core_count; row++) {
         limni_loop_limit_mask(s->rules, &c->stars[row], s->weights);
-        apply_vertex_mask(s, c, row, rows + (size_t)row * s->control_count);
+        apply_vertex_mask(s, c, row, s->weights, rows + (size_t)row * s->control_count);
+    }
+}
+
+/// Where a closed ring starts for the tangents of a row: on an edge, at the next row along it.
+static uint32_t tangent_start(const subdivision *s, const complex *c, uint32_t row, int depth) {
+    static const int directions[3][2] = {{1, 0}, {-1, 1}, {0, -1}};
+    const limn_row place = s->domain->rows[row];
+    const int step = LIMN_GRID_SIZE >> depth;
+    for (uint32_t edge = 0; edge < 3; edge++) {
+        if (!(place.edges >> edge & 1)) continue;
+        const uint32_t next =
+            grid_row(s, place.i + step * directions[edge][0], place.j + step * directions[edge][1]);
+        for (uint32_t r = 0; r < c->stars[row].count; r++) {
+            if (c->stars[row].ring[r] == next) return r;
+        }
+    }
+    return 0;
+}
+
+static void find_tangents(const subdivision *s, const complex *c, int depth,
+                          limni_fixed *tangents) {
+    const size_t table_size = (size_t)c->core_count * s->control_count;
+    memset(tangents, 0, 2 * table_size * sizeof *tangents);
+    for (uint32_t row = s->domain->corner_count; row < c->core_count; row++) {
+        limni_fixed *const along = s->weights, *const across = along + s->control_count + 7;
+        limni_fixed *const dst = tangents + (size_t)row * s->control_count;
+        limni_loop_tangent_masks(&c->stars[row], tangent_start(s, c, row, depth), along, across);
+        apply_vertex_mask(s, c, row, along, dst);
+        apply_vertex_mask(s, c, row, across, dst + table_size);
     }
 }
 
 limn_bake_status limni_subdivide(limni_context *context, const limni_rules *rules,
                                  const limni_neighbourhood *neighbourhood, int depth,
-                                 limni_projection projection, limni_fixed *rows) {
+                                 limni_projection projection, limni_fixed *positions,
+                                 limni_fixed *tangents) {
     const uint32_t control_count = neighbourhood->control_count;
     const subdivision s = {
         .context = context,
@@ -277,7 +307,7 @@ limn_bake_status limni_subdivide(limni_context *context, const limni_rules *rule
         .domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE),
         .control_count = control_count,
         .sums = limni_allocate(context, control_count, sizeof *s.sums),
-        .weights = limni_allocate(context, (size_t)control_count + 7, sizeof *s.weights),
+        .weights = limni_allocate(context, 2 * ((size_t)control_count + 7), sizeof *s.weights),
     };
     if (!s.sums || !s.weights) return LIMN_BAKE_MEMORY;
 
@@ -290,10 +320,12 @@ limn_bake_status limni_subdivide(limni_context *context, const limni_rules *rule
         level = next;
     }
     if (projection == LIMNI_PROJECT_TO_LIMIT) {
-        project_to_limit(&s, &level, rows);
+        project_to_limit(&s, &level, positions);
     } else {
-        memcpy(rows, level.coefficients, (size_t)level.core_count * control_count * sizeof *rows);
+        memcpy(positions, level.coefficients,
+               (size_t)level.core_count * control_count * sizeof *positions);
     }
+    if (tangents) find_tangents(&s, &level, depth, tangents);
     release_level(&s, &level);
     limni_release(context, s.sums);
     limni_release(context, s.weights);

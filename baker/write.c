@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHUNKS_OF_FILE = 3, CHUNKS_OF_MESH = 7 };
+enum { CHUNKS_OF_FILE = 3, CHUNKS_OF_MESH = 7, CHUNKS_OF_NORMALS = 3 };
 
 /// A chunk that is to be written.
 typedef struct part {
@@ -43,6 +43,16 @@ static void list_mesh(const limni_patches *mesh, uint32_t m, part *parts) {
     memcpy(parts, of_mesh, sizeof of_mesh);
 }
 
+static void list_normals(const limni_control_normals *normals, uint32_t control_count, uint32_t m,
+                         part *parts) {
+    const part of_normals[CHUNKS_OF_NORMALS] = {
+        {LIMN_CHUNK_NORMALS, m, normals->records, control_count * sizeof *normals->records},
+        {LIMN_CHUNK_RINGS, m, normals->ring, normals->ring_size * sizeof *normals->ring},
+        {LIMN_CHUNK_WEIGHTS, m, normals->weights, normals->weight_count * sizeof *normals->weights},
+    };
+    memcpy(parts, of_normals, sizeof of_normals);
+}
+
 static limn_bake_status make_class_records(limni_context *context, const limni_classes *classes,
                                            limn_file_class **records, uint64_t *tables_size) {
     *records = limni_allocate_zeroed(context, classes->count, sizeof **records);
@@ -55,10 +65,11 @@ static limn_bake_status make_class_records(limni_context *context, const limni_c
         record->control_count = class->control_count;
         record->domain = LIMN_DOMAIN_TRIANGLE;
         record->depth = LIMN_LEVEL_MAX;
+        record->table_count = class->table_count;
         record->boundary_corners = class->boundary_corners;
         for (int corner = 0; corner < 3; corner++)
             record->valences[corner] = (uint16_t) class->valences[corner];
-        offset += (uint64_t) class->control_count * LIMNI_TABLE_STRIDE * sizeof(float);
+        offset += limni_class_table_size(class);
     }
     *tables_size = offset;
     return LIMN_BAKE_OK;
@@ -67,7 +78,7 @@ static limn_bake_status make_class_records(limni_context *context, const limni_c
 static void copy_tables(const limni_classes *classes, unsigned char *dst) {
     for (uint32_t c = 0; c < classes->count; c++) {
         const limni_class *const class = &classes->items[c];
-        const size_t size = (size_t) class->control_count * LIMNI_TABLE_STRIDE * sizeof(float);
+        const size_t size = limni_class_table_size(class);
         memcpy(dst, class->table, size);
         dst += size;
     }
@@ -114,15 +125,18 @@ static void fill_blob(const limni_classes *classes, const part *parts, uint32_t 
 
 /// How the file was baked. Nothing here depends on the host or on the time.
 static void describe(const limni_rules *rules, char *text, size_t size) {
-    snprintf(text, size, "scheme=loop weights=%s boundary=%s",
+    snprintf(text, size, "scheme=loop weights=%s boundary=%s normals=%s",
              rules->weights == LIMN_WEIGHTS_WARREN ? "warren" : "loop",
-             rules->boundary == LIMN_BOUNDARY_EDGE_AND_CORNER ? "edge-and-corner" : "edge-only");
+             rules->boundary == LIMN_BOUNDARY_EDGE_AND_CORNER ? "edge-and-corner" : "edge-only",
+             rules->normals == LIMN_NORMALS_EXACT ? "exact" : "none");
 }
 
 limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rules,
                                   const limni_classes *classes, const limni_patches *meshes,
                                   uint32_t mesh_count, unsigned char **blob, size_t *blob_size) {
-    const uint32_t part_count = CHUNKS_OF_FILE + CHUNKS_OF_MESH * mesh_count;
+    const bool with_normals = rules->normals == LIMN_NORMALS_EXACT;
+    const uint32_t per_mesh = CHUNKS_OF_MESH + (with_normals ? CHUNKS_OF_NORMALS : 0);
+    const uint32_t part_count = CHUNKS_OF_FILE + per_mesh * mesh_count;
     part *const parts = limni_allocate(context, part_count, sizeof *parts);
     limn_file_chunk *const directory = limni_allocate(context, part_count, sizeof *directory);
     limn_file_class *class_records;
@@ -136,8 +150,13 @@ limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rul
     parts[1] = (part){LIMN_CHUNK_CLASSES, LIMN_FORMAT_NO_MESH, class_records,
                       classes->count * sizeof *class_records};
     parts[2] = (part){LIMN_CHUNK_TABLES, LIMN_FORMAT_NO_MESH, NULL, tables_size};
-    for (uint32_t m = 0; m < mesh_count; m++)
-        list_mesh(&meshes[m], m, parts + CHUNKS_OF_FILE + CHUNKS_OF_MESH * m);
+    for (uint32_t m = 0; m < mesh_count; m++) {
+        part *const of_mesh = parts + CHUNKS_OF_FILE + per_mesh * m;
+        list_mesh(&meshes[m], m, of_mesh);
+        if (with_normals)
+            list_normals(&meshes[m].normals, meshes[m].record.control_count, m,
+                         of_mesh + CHUNKS_OF_MESH);
+    }
     qsort(parts, part_count, sizeof *parts, compare_parts);
 
     limn_file_header header = {

@@ -37,21 +37,27 @@ typedef struct limni_run {
     const void *slots;       ///< the same shape, slot_size bytes each
     uint32_t control_count;
     uint32_t row_stride;
+    size_t
+        table_stride;   ///< floats from the positions' table to the tangents', and on to the second
     uint32_t slot_size; ///< 1 or 2
     uint32_t patch_count;
+    uint32_t corner_count; ///< of the domain
 } limni_run;
 
 /// Where control points come from.
 typedef struct limni_points {
     const float *controls; ///< [][3]
     const float *origin;   ///< [3] subtracted from every control point, and added to every row
+    const float *normals;  ///< [][3] of the control points, for the corners; NULL: no normals
 } limni_points;
 
 /// Where the vertices of a run go, one patch behind the other.
 typedef struct limni_target {
     unsigned char *vertices; ///< aligned to 4 bytes
     size_t stride;           ///< bytes from vertex to vertex
-    uint32_t row_count;      ///< rows that are written
+    unsigned char *normals;  ///< the same for normals; NULL: none are written
+    size_t normal_stride;
+    uint32_t row_count; ///< rows that are written
     uint32_t padded_row_count;
 } limni_target;
 

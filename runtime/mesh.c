@@ -27,8 +27,11 @@ limni_run limni_run_part(const limn_mesh *mesh, const limn_file_run *run, uint32
         .slots = mesh->slots + run->first_slot + skipped * slot_size,
         .control_count = class->control_count,
         .row_stride = mesh->domain->padded_row_counts[class->depth],
+        .table_stride =
+            (size_t) class->control_count * mesh->domain->padded_row_counts[class->depth],
         .slot_size = slot_size,
         .patch_count = end - begin,
+        .corner_count = mesh->domain->corner_count,
     };
 }
 

@@ -58,6 +58,11 @@ static const void *chunk_data(const limn_pack *pack, uint32_t mesh, uint32_t kin
     return bytes_at(pack, find_chunk(pack, mesh, kind)->offset);
 }
 
+static const void *optional_data(const limn_pack *pack, uint32_t mesh, uint32_t kind) {
+    const limn_file_chunk *const chunk = find_chunk(pack, mesh, kind);
+    return chunk ? bytes_at(pack, chunk->offset) : NULL;
+}
+
 static bool chunk_has_size(const limn_pack *pack, uint32_t mesh, uint32_t kind, uint64_t count,
                            size_t record_size) {
     const limn_file_chunk *const chunk = find_chunk(pack, mesh, kind);
@@ -69,14 +74,21 @@ static const uint32_t kinds_of_mesh[] = {LIMN_CHUNK_MESH, LIMN_CHUNK_NAME,  LIMN
                                          LIMN_CHUNK_RUNS, LIMN_CHUNK_FACES, LIMN_CHUNK_INDICES,
                                          LIMN_CHUNK_SLOTS};
 
-static bool is_known(const limn_file_chunk *chunk) {
-    const bool in_file = chunk->mesh == LIMN_FORMAT_NO_MESH;
-    const uint32_t *const kinds = in_file ? kinds_of_file : kinds_of_mesh;
-    const size_t size = in_file ? sizeof kinds_of_file : sizeof kinds_of_mesh;
-    for (size_t k = 0; k < size / sizeof *kinds; k++) {
-        if (chunk->kind == kinds[k]) return true;
+static const uint32_t kinds_of_normals[] = {LIMN_CHUNK_NORMALS, LIMN_CHUNK_RINGS,
+                                            LIMN_CHUNK_WEIGHTS};
+
+static bool is_among(uint32_t kind, const uint32_t *kinds, size_t count) {
+    for (size_t k = 0; k < count; k++) {
+        if (kind == kinds[k]) return true;
     }
     return false;
+}
+
+static bool is_known(const limn_file_chunk *chunk) {
+    if (chunk->mesh == LIMN_FORMAT_NO_MESH)
+        return is_among(chunk->kind, kinds_of_file, sizeof kinds_of_file / sizeof(uint32_t));
+    return is_among(chunk->kind, kinds_of_mesh, sizeof kinds_of_mesh / sizeof(uint32_t)) ||
+           is_among(chunk->kind, kinds_of_normals, sizeof kinds_of_normals / sizeof(uint32_t));
 }
 
 // ---- Validation of the file
@@ -168,7 +180,9 @@ static limn_result validate_classes(const limn_pack *pack) {
         const uint64_t column_size = domain->padded_row_counts[class->depth] * sizeof(float);
         if (class->table_offset % LIMN_FORMAT_ALIGNMENT != 0 ||
             class->table_offset > tables->size ||
-            class->control_count > (tables->size - class->table_offset) / column_size)
+            (class->table_count != 1 && class->table_count != 3) ||
+            (uint64_t) class->table_count * class->control_count >
+                (tables->size - class->table_offset) / column_size)
             return LIMN_ERROR_CLASS;
     }
     if (!all_finite((const float *)(const void *)bytes_at(pack, tables->offset),
@@ -267,6 +281,31 @@ static limn_result validate_faces(const limn_mesh *mesh) {
     return LIMN_OK;
 }
 
+/// A mesh has all of it or nothing, and with it tangents in all the classes that it uses.
+static limn_result validate_normals(const limn_pack *pack, const limn_mesh *mesh, uint32_t m) {
+    if (!mesh->normals) return LIMN_OK;
+    const limn_file_chunk *const rings = find_chunk(pack, m, LIMN_CHUNK_RINGS);
+    const limn_file_chunk *const weights = find_chunk(pack, m, LIMN_CHUNK_WEIGHTS);
+    if (!rings || !weights) return LIMN_ERROR_CHUNK;
+    if (!chunk_has_size(pack, m, LIMN_CHUNK_NORMALS, mesh->control_count, sizeof *mesh->normals))
+        return LIMN_ERROR_MESH;
+    const uint64_t ring_size = rings->size / sizeof(uint32_t);
+    const uint64_t weight_count = weights->size / sizeof(float);
+    for (uint32_t r = 0; r < mesh->run_count; r++) {
+        if (mesh->classes[mesh->runs[r].class_index].table_count != 3) return LIMN_ERROR_NORMALS;
+    }
+    for (uint32_t c = 0; c < mesh->control_count; c++) {
+        const limn_file_normal *const normal = &mesh->normals[c];
+        if ((uint64_t)normal->first_ring + normal->ring_count > ring_size ||
+            normal->first_weight + 2 * ((uint64_t)normal->ring_count + 1) > weight_count)
+            return LIMN_ERROR_NORMALS;
+    }
+    for (uint64_t r = 0; r < ring_size; r++) {
+        if (mesh->ring[r] >= mesh->control_count) return LIMN_ERROR_NORMALS;
+    }
+    return all_finite(mesh->weights, (size_t)weight_count) ? LIMN_OK : LIMN_ERROR_NORMALS;
+}
+
 static limn_result validate_mesh(const limn_pack *pack, uint32_t m) {
     TRY(validate_text(pack, m, LIMN_CHUNK_NAME));
     TRY(validate_mesh_sizes(pack, m));
@@ -282,7 +321,8 @@ static limn_result validate_mesh(const limn_pack *pack, uint32_t m) {
         TRY(validate_indices(&mesh, &mesh.runs[r]));
         TRY(validate_slots(&mesh, &mesh.runs[r]));
     }
-    return validate_faces(&mesh);
+    TRY(validate_faces(&mesh));
+    return validate_normals(pack, &mesh, m);
 }
 
 // ---- The public functions
@@ -321,6 +361,9 @@ limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index) {
         .tables = chunk_data(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES),
         .runs = chunk_data(pack, mesh_index, LIMN_CHUNK_RUNS),
         .classes = pack->classes,
+        .normals = optional_data(pack, mesh_index, LIMN_CHUNK_NORMALS),
+        .ring = optional_data(pack, mesh_index, LIMN_CHUNK_RINGS),
+        .weights = optional_data(pack, mesh_index, LIMN_CHUNK_WEIGHTS),
         .kernels = pack->kernels,
     };
     memcpy(mesh.bounds_min, record->bounds_min, sizeof mesh.bounds_min);

@@ -16,10 +16,10 @@
 #endif
 LIMN_STATIC_ASSERT(FLT_EVAL_METHOD == 0, "floats must be rounded to float (-mfpmath=sse)");
 
-/// Positions of one patch, relative to the origin: structure of arrays, in L1.
-typedef struct positions {
+/// A vector for every row of one patch: structure of arrays, in L1.
+typedef struct vectors {
     _Alignas(64) float axes[3][LIMNI_ROW_MAX];
-} positions;
+} vectors;
 
 /// What a tile is computed from: one patch with its control points gathered.
 typedef struct patch {
@@ -39,7 +39,7 @@ static inline const float *column_of(const patch *p, uint32_t slot_size, size_t 
 /// Rows [first_row, first_row + vector_count * LANES_WIDTH) of one patch. `vector_count` and
 /// `slot_size` are constants where this is called, so that the accumulators are registers.
 static inline void evaluate_tile(const patch *p, uint32_t slot_size, size_t first_row,
-                                 int vector_count, positions *out) {
+                                 int vector_count, vectors *out) {
     lanes x[LANES_TILE], y[LANES_TILE], z[LANES_TILE];
     LIMNI_UNROLL
     for (int v = 0; v < vector_count; v++)
@@ -89,26 +89,35 @@ static inline lanes evaluate_long_sums(const patch *p, uint32_t slot_size, size_
 }
 
 static inline void evaluate_long_patch(const patch *p, uint32_t slot_size, size_t row_count,
-                                       positions *out) {
+                                       vectors *out) {
     for (int axis = 0; axis < 3; axis++) {
         for (size_t row = 0; row < row_count; row += LANES_WIDTH)
             lanes_store(&out->axes[axis][row], evaluate_long_sums(p, slot_size, row, axis));
     }
 }
 
+/// Full tiles, and one of just the vectors that are left.
 static inline void evaluate_tiles(const patch *p, uint32_t slot_size, size_t row_count,
-                                  positions *out) {
-    enum { TILE = LANES_TILE * LANES_WIDTH, BLOCK = LIMN_FORMAT_ROW_BLOCK };
+                                  vectors *out) {
+    enum { TILE = LANES_TILE * LANES_WIDTH };
     size_t row = 0;
     for (; row + TILE <= row_count; row += TILE)
         evaluate_tile(p, slot_size, row, LANES_TILE, out);
-    for (; row < row_count; row += BLOCK)
-        evaluate_tile(p, slot_size, row, BLOCK / LANES_WIDTH, out);
+    const int rest = (int)((row_count - row) / LANES_WIDTH);
+    if (rest == 1) {
+        evaluate_tile(p, slot_size, row, 1, out);
+    } else if (rest == 2) {
+        evaluate_tile(p, slot_size, row, 2, out);
+    } else if (rest == 3 && LANES_TILE > 3) {
+        evaluate_tile(p, slot_size, row, 3, out);
+    } else if (rest == 4 && LANES_TILE > 4) {
+        evaluate_tile(p, slot_size, row, 4, out);
+    }
 }
 
 /// Not inlined: what a compiler would keep in registers around the loop over patches are registers that
 /// the accumulators need (gcc 12 spills all three splats).
-static LIMNI_NOINLINE void evaluate_narrow_patch(const patch *p, size_t row_count, positions *out) {
+static LIMNI_NOINLINE void evaluate_narrow_patch(const patch *p, size_t row_count, vectors *out) {
     evaluate_tiles(p, 1, row_count, out);
 }
 
@@ -121,15 +130,39 @@ static inline void gather(const uint32_t *indices, size_t count, const limni_poi
     }
 }
 
-static inline void store_vertex(const positions *src, size_t row, const float *origin,
-                                unsigned char *dst) {
-    float *const vertex = (float *)(void *)dst;
-    for (int axis = 0; axis < 3; axis++)
-        vertex[axis] = src->axes[axis][row] + origin[axis];
+/// Unit normals from two tangents. Along a shared edge the neighbour has both tangents negated, bit for
+/// bit, so that products, and all that follows, are the same; adding +0 makes zeros alike.
+static inline void find_normals(const vectors *along, const vectors *across, size_t row_count,
+                                vectors *out) {
+    const lanes zero = lanes_zero(), one = lanes_splat(1.0f), least = lanes_splat(FLT_MIN);
+    for (size_t row = 0; row < row_count; row += LANES_WIDTH) {
+        const lanes ax = lanes_load(&along->axes[0][row]), bx = lanes_load(&across->axes[0][row]);
+        const lanes ay = lanes_load(&along->axes[1][row]), by = lanes_load(&across->axes[1][row]);
+        const lanes az = lanes_load(&along->axes[2][row]), bz = lanes_load(&across->axes[2][row]);
+        const lanes x = lanes_subtract(lanes_multiply(ay, bz), lanes_multiply(az, by));
+        const lanes y = lanes_subtract(lanes_multiply(az, bx), lanes_multiply(ax, bz));
+        const lanes z = lanes_subtract(lanes_multiply(ax, by), lanes_multiply(ay, bx));
+        const lanes square =
+            lanes_add(lanes_add(lanes_multiply(x, x), lanes_multiply(y, y)), lanes_multiply(z, z));
+        const lanes scale = lanes_divide(one, lanes_square_root(square));
+        const lanes nx = lanes_add(lanes_multiply(x, scale), zero);
+        const lanes ny = lanes_add(lanes_multiply(y, scale), zero);
+        const lanes nz = lanes_add(lanes_multiply(z, scale), zero);
+        lanes_store(&out->axes[0][row], lanes_select_greater(square, least, nx, zero));
+        lanes_store(&out->axes[1][row], lanes_select_greater(square, least, ny, zero));
+        lanes_store(&out->axes[2][row], lanes_select_greater(square, least, nz, one));
+    }
 }
 
-/// Vertices without gaps, a vector of rows at a time. Returns how many rows were stored.
-static inline size_t store_packed(const positions *src, size_t row_count, const float *origin,
+static inline void store_row(const vectors *src, size_t row, const float *origin,
+                             unsigned char *dst) {
+    float *const vector = (float *)(void *)dst;
+    for (int axis = 0; axis < 3; axis++)
+        vector[axis] = src->axes[axis][row] + origin[axis];
+}
+
+/// Without gaps, a vector of rows at a time. Returns how many rows were stored.
+static inline size_t store_packed(const vectors *src, size_t row_count, const float *origin,
                                   unsigned char *dst) {
     const lanes x = lanes_splat(origin[0]), y = lanes_splat(origin[1]), z = lanes_splat(origin[2]);
     size_t row = 0;
@@ -144,61 +177,93 @@ static inline size_t store_packed(const positions *src, size_t row_count, const 
 
 /// Writes forward only, so that `dst` may be write-combined memory. The origin is added here: in the
 /// sums it would take registers that the accumulators need.
-static inline void store_positions(const positions *src, const float *origin,
-                                   const limni_target *target, unsigned char *dst) {
+static inline void store_stream(const vectors *src, const float *origin, size_t row_count,
+                                size_t stride, unsigned char *dst) {
     size_t row = 0;
-    if (target->stride == 3 * sizeof(float))
-        row = store_packed(src, target->row_count, origin, dst);
-    for (; row < target->row_count; row++)
-        store_vertex(src, row, origin, dst + row * target->stride);
+    if (stride == 3 * sizeof(float)) row = store_packed(src, row_count, origin, dst);
+    for (; row < row_count; row++)
+        store_row(src, row, origin, dst + row * stride);
 }
 
-/// `points` has room for one patch.
-static inline void evaluate_patches(const limni_run *run, uint32_t slot_size, float (*points)[3],
-                                    const limni_points *from, const limni_target *target) {
-    const bool is_long = run->control_count > LIMNI_PLAIN_TERMS;
-    const uint32_t *indices = run->indices;
-    const unsigned char *slots = run->slots;
-    unsigned char *dst = target->vertices;
-    for (uint32_t i = 0; i < run->patch_count; i++) {
-        const patch p = {
-            .table = run->table,
-            .row_stride = run->row_stride,
-            .control_count = run->control_count,
-            .slots = slots,
-            .points = (const float(*)[3])points,
-        };
-        positions scratch;
-        gather(indices, run->control_count, from, points);
-        if (is_long) {
-            evaluate_long_patch(&p, slot_size, target->padded_row_count, &scratch);
-        } else {
-            evaluate_narrow_patch(&p, target->padded_row_count, &scratch);
+/// Normals inside the vertices are written with them, vertex by vertex.
+static inline void store_vertices(const vectors *positions, const vectors *normals,
+                                  const float *origin, const limni_target *target,
+                                  size_t patch_index) {
+    static const float nowhere[3] = {0};
+    const size_t row_count = target->row_count, first = patch_index * row_count;
+    unsigned char *const dst = target->vertices + first * target->stride;
+    unsigned char *const normal_dst =
+        normals ? target->normals + first * target->normal_stride : NULL;
+    const uintptr_t apart = (uintptr_t)target->normals - (uintptr_t)target->vertices;
+    if (normals && target->normal_stride == target->stride && apart < target->stride) {
+        for (size_t row = 0; row < row_count; row++) {
+            store_row(positions, row, origin, dst + row * target->stride);
+            store_row(normals, row, nowhere, normal_dst + row * target->stride);
         }
-        store_positions(&scratch, from->origin, target, dst);
-        indices += run->control_count;
-        slots += (size_t)run->control_count * slot_size;
-        dst += target->row_count * target->stride;
+        return;
+    }
+    store_stream(positions, origin, row_count, target->stride, dst);
+    if (normals) store_stream(normals, nowhere, row_count, target->normal_stride, normal_dst);
+}
+
+/// Sums the rows of one table: positions relative to the origin, or a tangent.
+static inline void evaluate_table(patch *p, const limni_run *run, int table, size_t row_count,
+                                  vectors *out) {
+    p->table = run->table + (size_t)table * run->table_stride;
+    if (run->slot_size == 2) {
+        evaluate_long_patch(p, 2, row_count, out);
+    } else if (run->control_count > LIMNI_PLAIN_TERMS) {
+        evaluate_long_patch(p, 1, row_count, out);
+    } else {
+        evaluate_narrow_patch(p, row_count, out);
     }
 }
 
-static void evaluate_narrow(const limni_run *run, const limni_points *from,
-                            const limni_target *target) {
-    float points[LIMN_FORMAT_NARROW_SLOTS][3];
-    evaluate_patches(run, 1, points, from, target);
+/// The corners have the normals of their control points, so that all patches around one agree.
+static inline void set_corner_normals(const limni_run *run, const uint32_t *indices,
+                                      const void *slots, const float *control_normals,
+                                      vectors *normals) {
+    for (size_t k = 0; k < run->control_count; k++) {
+        const size_t slot =
+            run->slot_size == 1 ? ((const uint8_t *)slots)[k] : ((const uint16_t *)slots)[k];
+        if (slot >= run->corner_count) continue;
+        for (size_t axis = 0; axis < 3; axis++)
+            normals->axes[axis][slot] = control_normals[3 * (size_t)indices[k] + axis];
+    }
 }
 
-static void evaluate_wide(const limni_run *run, const limni_points *from,
-                          const limni_target *target) {
-    float points[LIMN_FORMAT_CONTROLS_MAX][3];
-    evaluate_patches(run, 2, points, from, target);
+/// `points` has room for one patch.
+static inline void evaluate_patches(const limni_run *run, float (*points)[3],
+                                    const limni_points *from, const limni_target *target) {
+    const size_t row_count = target->padded_row_count, control_count = run->control_count;
+    for (size_t i = 0; i < run->patch_count; i++) {
+        const uint32_t *const indices = run->indices + i * control_count;
+        const unsigned char *const slots =
+            (const unsigned char *)run->slots + i * control_count * run->slot_size;
+        patch p = {.row_stride = run->row_stride,
+                   .control_count = control_count,
+                   .slots = slots,
+                   .points = (const float(*)[3])points};
+        vectors positions, along, across, normals;
+        gather(indices, control_count, from, points);
+        evaluate_table(&p, run, 0, row_count, &positions);
+        if (from->normals) {
+            evaluate_table(&p, run, 1, row_count, &along);
+            evaluate_table(&p, run, 2, row_count, &across);
+            find_normals(&along, &across, row_count, &normals);
+            set_corner_normals(run, indices, slots, from->normals, &normals);
+        }
+        store_vertices(&positions, from->normals ? &normals : NULL, from->origin, target, i);
+    }
 }
 
 static void evaluate_run(const limni_run *run, const limni_points *from,
                          const limni_target *target) {
     if (run->slot_size == 1) {
-        evaluate_narrow(run, from, target);
+        float points[LIMN_FORMAT_NARROW_SLOTS][3];
+        evaluate_patches(run, points, from, target);
     } else {
-        evaluate_wide(run, from, target);
+        float points[LIMN_FORMAT_CONTROLS_MAX][3];
+        evaluate_patches(run, points, from, target);
     }
 }

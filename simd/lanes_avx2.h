@@ -8,7 +8,11 @@
 typedef __m256 lanes;
 
 #define LANES_WIDTH 8
-#define LANES_TILE 4 ///< 12 accumulators, 3 splats and 1 column fill the 16 registers
+#ifdef LANES_FUSED
+#define LANES_TILE 4 ///< 12 accumulators, 3 splats and a column fill the 16 registers
+#else
+#define LANES_TILE 3 ///< products take a register more
+#endif
 
 static inline lanes lanes_zero(void) {
     return _mm256_setzero_ps();
@@ -26,14 +30,12 @@ static inline void lanes_store(float *dst, lanes a) {
 /// Writes x y z, lane after lane. dst: aligned to 4 bytes.
 static inline void lanes_store_xyz(float *dst, lanes x, lanes y, lanes z) {
     // As for SSE2 in each half; then the halves go behind one another.
-    const __m256 x0y0x1y1 = _mm256_unpacklo_ps(x, y), x2y2x3y3 = _mm256_unpackhi_ps(x, y);
-    const __m256 z0x1 = _mm256_shuffle_ps(z, x, _MM_SHUFFLE(1, 1, 0, 0));
-    const __m256 y1z1 = _mm256_shuffle_ps(y, z, _MM_SHUFFLE(1, 1, 1, 1));
-    const __m256 z2x3 = _mm256_shuffle_ps(z, x, _MM_SHUFFLE(3, 3, 2, 2));
-    const __m256 y3z3 = _mm256_shuffle_ps(y, z, _MM_SHUFFLE(3, 3, 3, 3));
-    const __m256 a = _mm256_shuffle_ps(x0y0x1y1, z0x1, _MM_SHUFFLE(2, 0, 1, 0));
-    const __m256 b = _mm256_shuffle_ps(y1z1, x2y2x3y3, _MM_SHUFFLE(1, 0, 2, 0));
-    const __m256 c = _mm256_shuffle_ps(z2x3, y3z3, _MM_SHUFFLE(2, 0, 2, 0));
+    const __m256 x0x2y0y2 = _mm256_shuffle_ps(x, y, _MM_SHUFFLE(2, 0, 2, 0));
+    const __m256 y1y3z1z3 = _mm256_shuffle_ps(y, z, _MM_SHUFFLE(3, 1, 3, 1));
+    const __m256 z0z2x1x3 = _mm256_shuffle_ps(z, x, _MM_SHUFFLE(3, 1, 2, 0));
+    const __m256 a = _mm256_shuffle_ps(x0x2y0y2, z0z2x1x3, _MM_SHUFFLE(2, 0, 2, 0));
+    const __m256 b = _mm256_shuffle_ps(y1y3z1z3, x0x2y0y2, _MM_SHUFFLE(3, 1, 2, 0));
+    const __m256 c = _mm256_shuffle_ps(z0z2x1x3, y1y3z1z3, _MM_SHUFFLE(3, 1, 3, 1));
     _mm256_storeu_ps(dst, _mm256_permute2f128_ps(a, b, 0x20));
     _mm256_storeu_ps(dst + 8, _mm256_permute2f128_ps(c, a, 0x30));
     _mm256_storeu_ps(dst + 16, _mm256_permute2f128_ps(b, c, 0x31));
@@ -43,6 +45,12 @@ static inline lanes lanes_add(lanes a, lanes b) {
 }
 static inline lanes lanes_subtract(lanes a, lanes b) {
     return _mm256_sub_ps(a, b);
+}
+static inline lanes lanes_divide(lanes a, lanes b) {
+    return _mm256_div_ps(a, b);
+}
+static inline lanes lanes_square_root(lanes a) {
+    return _mm256_sqrt_ps(a);
 }
 static inline lanes lanes_multiply(lanes a, lanes b) {
     return _mm256_mul_ps(a, b);

@@ -33,6 +33,12 @@ static inline lanes lanes_add(lanes a, lanes b) {
 static inline lanes lanes_subtract(lanes a, lanes b) {
     return vsubq_f32(a, b);
 }
+static inline lanes lanes_divide(lanes a, lanes b) {
+    return vdivq_f32(a, b);
+}
+static inline lanes lanes_square_root(lanes a) {
+    return vsqrtq_f32(a);
+}
 static inline lanes lanes_multiply(lanes a, lanes b) {
     return vmulq_f32(a, b);
 }

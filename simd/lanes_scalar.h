@@ -3,6 +3,8 @@
 #ifndef LANES_H
 #define LANES_H
 
+#include <math.h>
+
 typedef float lanes;
 
 #define LANES_WIDTH 1
@@ -31,6 +33,12 @@ static inline lanes lanes_add(lanes a, lanes b) {
 }
 static inline lanes lanes_subtract(lanes a, lanes b) {
     return a - b;
+}
+static inline lanes lanes_divide(lanes a, lanes b) {
+    return a / b;
+}
+static inline lanes lanes_square_root(lanes a) {
+    return sqrtf(a);
 }
 static inline lanes lanes_multiply(lanes a, lanes b) {
     return a * b;

@@ -7,7 +7,8 @@
 typedef __m128 lanes;
 
 #define LANES_WIDTH 4
-#define LANES_TILE 4 ///< 12 accumulators, 3 splats and 1 column fill the 16 registers
+/// 9 accumulators, 3 splats, a column and a product; with 12, one more than the 16 registers are needed.
+#define LANES_TILE 3
 
 static inline lanes lanes_zero(void) {
     return _mm_setzero_ps();
@@ -24,20 +25,27 @@ static inline void lanes_store(float *dst, lanes a) {
 }
 /// Writes x y z, lane after lane. dst: aligned to 4 bytes.
 static inline void lanes_store_xyz(float *dst, lanes x, lanes y, lanes z) {
-    const __m128 x0y0x1y1 = _mm_unpacklo_ps(x, y), x2y2x3y3 = _mm_unpackhi_ps(x, y);
-    const __m128 z0x1 = _mm_shuffle_ps(z, x, _MM_SHUFFLE(1, 1, 0, 0));
-    const __m128 y1z1 = _mm_shuffle_ps(y, z, _MM_SHUFFLE(1, 1, 1, 1));
-    const __m128 z2x3 = _mm_shuffle_ps(z, x, _MM_SHUFFLE(3, 3, 2, 2));
-    const __m128 y3z3 = _mm_shuffle_ps(y, z, _MM_SHUFFLE(3, 3, 3, 3));
-    _mm_storeu_ps(dst, _mm_shuffle_ps(x0y0x1y1, z0x1, _MM_SHUFFLE(2, 0, 1, 0)));
-    _mm_storeu_ps(dst + 4, _mm_shuffle_ps(y1z1, x2y2x3y3, _MM_SHUFFLE(1, 0, 2, 0)));
-    _mm_storeu_ps(dst + 8, _mm_shuffle_ps(z2x3, y3z3, _MM_SHUFFLE(2, 0, 2, 0)));
+    const __m128 x0x2y0y2 = _mm_shuffle_ps(x, y, _MM_SHUFFLE(2, 0, 2, 0));
+    const __m128 y1y3z1z3 = _mm_shuffle_ps(y, z, _MM_SHUFFLE(3, 1, 3, 1));
+    const __m128 z0z2x1x3 = _mm_shuffle_ps(z, x, _MM_SHUFFLE(3, 1, 2, 0));
+    const __m128 a = _mm_shuffle_ps(x0x2y0y2, z0z2x1x3, _MM_SHUFFLE(2, 0, 2, 0));
+    const __m128 b = _mm_shuffle_ps(y1y3z1z3, x0x2y0y2, _MM_SHUFFLE(3, 1, 2, 0));
+    const __m128 c = _mm_shuffle_ps(z0z2x1x3, y1y3z1z3, _MM_SHUFFLE(3, 1, 3, 1));
+    _mm_storeu_ps(dst, a);
+    _mm_storeu_ps(dst + 4, b);
+    _mm_storeu_ps(dst + 8, c);
 }
 static inline lanes lanes_add(lanes a, lanes b) {
     return _mm_add_ps(a, b);
 }
 static inline lanes lanes_subtract(lanes a, lanes b) {
     return _mm_sub_ps(a, b);
+}
+static inline lanes lanes_divide(lanes a, lanes b) {
+    return _mm_div_ps(a, b);
+}
+static inline lanes lanes_square_root(lanes a) {
+    return _mm_sqrt_ps(a);
 }
 static inline lanes lanes_multiply(lanes a, lanes b) {
     return _mm_mul_ps(a, b);

@@ -54,7 +54,7 @@ bake_all() {
         for mesh in "$@"; do
             bake "$build" "$weights-$(basename "$(dirname "$mesh")")-$(basename "$mesh")" --weights $weights "$mesh"
         done
-        bake "$build" "$weights-all" --weights $weights "$source_folder"/assets/*.obj "$source_folder"/assets/*.off
+        bake "$build" "$weights-all" --weights $weights --normals exact "$source_folder"/assets/*.obj "$source_folder"/assets/*.off
     done
     for mesh in "$@"; do
         bake "$build" "mended-$(basename "$(dirname "$mesh")")-$(basename "$mesh")" \

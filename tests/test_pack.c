@@ -107,8 +107,8 @@ static void fix_checksum(const blob *file) {
     header_of(file)->checksum = limni_checksum(file->bytes + summed, file->size - summed);
 }
 
-static blob bake(const mesh_case *const *meshes, size_t mesh_count) {
-    limn_baker *const baker = limn_baker_create(NULL);
+static blob bake_with(limn_normals normals, const mesh_case *const *meshes, size_t mesh_count) {
+    limn_baker *const baker = limn_baker_create(&(limn_bake_desc){.normals = normals});
     if (!baker) abort();
     for (size_t m = 0; m < mesh_count; m++)
         CHECK_EQUAL(limn_baker_add_mesh(
@@ -126,6 +126,10 @@ static blob bake(const mesh_case *const *meshes, size_t mesh_count) {
         copy_blob(&(blob){.bytes = (unsigned char *)(uintptr_t)bytes, .size = size}, size);
     limn_baker_destroy(baker);
     return file;
+}
+
+static blob bake(const mesh_case *const *meshes, size_t mesh_count) {
+    return bake_with(LIMN_NORMALS_NONE, meshes, mesh_count);
 }
 
 static blob bake_tetrahedron(void) {
@@ -236,7 +240,7 @@ static void test_views(void) {
     if (CHECK_EQUAL(limn_pack_open(&pack, file.bytes, file.size), LIMN_OK)) {
         CHECK(pack.blob == file.bytes);
         CHECK_EQUAL(pack.blob_size, file.size);
-        CHECK_TEXT(pack.info, "scheme=loop weights=loop boundary=edge-only");
+        CHECK_TEXT(pack.info, "scheme=loop weights=loop boundary=edge-only normals=none");
         CHECK(pack.kernels == limn_kernels_select(LIMN_ISA_ALL, LIMN_FAMILY_REPRODUCIBLE));
         CHECK_EQUAL(pack.class_count, header_of(&file)->class_count);
         CHECK_EQUAL(pack.mesh_count, COUNT(meshes));
@@ -337,6 +341,31 @@ static void test_changed_bytes(void) {
 
 /// With the checksum mended: refused, or evaluated at every level into buffers of just that size.
 /// Returns whether it opened.
+static void check_corners(const limn_mesh *mesh, uint32_t patch_index) {
+    uint32_t found[LIMN_CORNER_MAX];
+    memset(found, 0xff, sizeof found);
+    limn_mesh_corners(mesh, patch_index, found);
+    for (uint32_t c = 0; c < mesh->domain->corner_count; c++)
+        CHECK(found[c] < mesh->control_count);
+    CHECK(limn_mesh_face(mesh, patch_index).face < mesh->patch_count);
+}
+
+/// Writes normals into rooms of just their size.
+static void evaluate_normals(const limn_mesh *mesh, uint32_t level) {
+    const limn_plan plan = limn_plan_uniform(mesh, level);
+    float *const control_normals = malloc(mesh->control_count * sizeof(float[3]));
+    float *const vertices = malloc((size_t)plan.vertex_count * sizeof(float[3]));
+    float *const normals = malloc((size_t)plan.vertex_count * sizeof(float[3]));
+    limn_mesh_control_normals(mesh, mesh->controls, control_normals);
+    limn_evaluate(&plan, mesh->controls, 0, plan.patch_count,
+                  &(limn_output){.vertices = vertices,
+                                 .normals = normals,
+                                 .control_normals = control_normals});
+    free(control_normals);
+    free(vertices);
+    free(normals);
+}
+
 static bool check_safe(const blob *file) {
     fix_checksum(file);
     limn_pack pack;
@@ -345,9 +374,10 @@ static bool check_safe(const blob *file) {
         const limn_mesh mesh = limn_pack_mesh(&pack, m);
         for (uint32_t level = 0; level <= LIMN_LEVEL_MAX; level++)
             free(evaluate(&mesh, level));
+        if (mesh.normals) evaluate_normals(&mesh, 1);
         CHECK(strlen(mesh.name) < file->size);
         for (uint32_t p = 0; p < mesh.patch_count; p++)
-            CHECK(limn_mesh_face(&mesh, p).face < mesh.patch_count);
+            check_corners(&mesh, p);
     }
     return true;
 }
@@ -381,10 +411,11 @@ static void test_mended_bytes(void) {
 }
 
 /// Counts, offsets and indices at the limits of their types.
-static void test_mended_words(const mesh_case *const *meshes, size_t mesh_count) {
+static void test_mended_words(limn_normals normals, const mesh_case *const *meshes,
+                              size_t mesh_count) {
     const uint32_t values[] = {0,       1,          2,          3,          64,        0xffff,
                                1 << 30, 0x3fffffff, 0x7fffffff, 0x80000000, 0xffffffff};
-    const blob file = bake(meshes, mesh_count);
+    const blob file = bake_with(normals, meshes, mesh_count);
     const limn_file_chunk *const tables = find_chunk(&file, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES);
     for (size_t at = offsetof(limn_file_header, chunk_count); at + 4 <= file.size; at += 4) {
         if (at >= tables->offset && at < tables->offset + tables->size) continue;
@@ -793,6 +824,38 @@ static void test_checksum(void) {
 #endif
 }
 
+/// What must be refused of the data for normals.
+static void test_damaged_normals(void) {
+    const blob file = bake_with(LIMN_NORMALS_EXACT, (const mesh_case *[]){&tetrahedron}, 1);
+    const limn_file_chunk *const records = find_chunk(&file, 0, LIMN_CHUNK_NORMALS);
+    const limn_file_chunk *const ring = find_chunk(&file, 0, LIMN_CHUNK_RINGS);
+    const limn_file_chunk *const weights = find_chunk(&file, 0, LIMN_CHUNK_WEIGHTS);
+    const limn_file_chunk *const classes =
+        find_chunk(&file, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_CLASSES);
+    const struct {
+        uint64_t at;
+        uint32_t value;
+        limn_result expected;
+    } cases[] = {
+        {records->offset + offsetof(limn_file_normal, first_ring), 10, LIMN_ERROR_NORMALS},
+        {records->offset + offsetof(limn_file_normal, ring_count), 0xffffffff, LIMN_ERROR_NORMALS},
+        {records->offset + offsetof(limn_file_normal, first_weight), 1, LIMN_ERROR_NORMALS},
+        {ring->offset, 4, LIMN_ERROR_NORMALS},
+        {weights->offset, 0x7fc00000, LIMN_ERROR_NORMALS},
+        {classes->offset + offsetof(limn_file_class, table_count), 1, LIMN_ERROR_NORMALS},
+        {classes->offset + offsetof(limn_file_class, table_count), 2, LIMN_ERROR_CLASS},
+        {classes->offset + offsetof(limn_file_class, table_count), 4, LIMN_ERROR_CLASS},
+    };
+    for (size_t c = 0; c < COUNT(cases); c++) {
+        const blob changed = copy_blob(&file, file.size);
+        memcpy(changed.bytes + cases[c].at, &cases[c].value, sizeof cases[c].value);
+        fix_checksum(&changed);
+        CHECK_EQUAL(open_result(changed.bytes, changed.size), cases[c].expected);
+        free(changed.bytes);
+    }
+    free(file.bytes);
+}
+
 int main(void) {
     make_wheel();
     test_views();
@@ -802,8 +865,10 @@ int main(void) {
     test_headers();
     test_changed_bytes();
     test_mended_bytes();
-    test_mended_words((const mesh_case *[]){&tetrahedron, &twin}, 2);
-    test_mended_words((const mesh_case *[]){&strip}, 1);
+    test_mended_words(LIMN_NORMALS_NONE, (const mesh_case *[]){&tetrahedron, &twin}, 2);
+    test_mended_words(LIMN_NORMALS_NONE, (const mesh_case *[]){&strip}, 1);
+    test_mended_words(LIMN_NORMALS_EXACT, (const mesh_case *[]){&strip, &twin}, 2);
+    test_damaged_normals();
     test_damages();
     test_unknown_chunks();
     test_result_texts();

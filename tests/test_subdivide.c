@@ -37,7 +37,7 @@ static void test_brickhill_example(void) {
         .corners = {closed_star(5, ring_1), closed_star(6, ring_2), closed_star(6, ring_3)},
     };
     const limni_rules rules = {.weights = LIMN_WEIGHTS_WARREN};
-    CHECK_EQUAL(limni_subdivide(&context, &rules, &neighbourhood, 2, LIMNI_PROJECT_NOT, rows),
+    CHECK_EQUAL(limni_subdivide(&context, &rules, &neighbourhood, 2, LIMNI_PROJECT_NOT, rows, NULL),
                 LIMN_BAKE_OK);
 
     const double v_1_2[COUNT] = {[C1] = 3 / 8., [C3] = 3 / 8., [C4] = 1 / 8., [C2] = 1 / 8.};
@@ -53,7 +53,7 @@ static void test_brickhill_example(void) {
         CHECK_NEAR(value(v_2_8[c]), expected, 1e-17);
     }
 
-    CHECK_EQUAL(limni_subdivide(&context, &rules, &neighbourhood, 1, LIMNI_PROJECT_NOT, rows),
+    CHECK_EQUAL(limni_subdivide(&context, &rules, &neighbourhood, 1, LIMNI_PROJECT_NOT, rows, NULL),
                 LIMN_BAKE_OK);
     for (int c = 0; c < COUNT; c++) {
         CHECK_NEAR(value(rows[row_at(0, 8) * COUNT + (uint32_t)c]), v_1_2[c], 1e-17);
@@ -78,7 +78,7 @@ static void test_regular_limit(void) {
     const limni_neighbourhood neighbourhood = regular();
     const limni_rules rules = {0};
     CHECK_EQUAL(limni_subdivide(&context, &rules, &neighbourhood, LIMN_LEVEL_MAX,
-                                LIMNI_PROJECT_TO_LIMIT, rows),
+                                LIMNI_PROJECT_TO_LIMIT, rows, NULL),
                 LIMN_BAKE_OK);
     for (uint32_t corner = 0; corner < 3; corner++) {
         CHECK_NEAR(value(rows[corner * 12 + corner]), 1 / 2., 1e-16);
@@ -131,7 +131,7 @@ static void test_regular_is_a_box_spline(void) {
     const limni_neighbourhood neighbourhood = regular();
     const limni_rules rules = {0};
     CHECK_EQUAL(limni_subdivide(&context, &rules, &neighbourhood, LIMN_LEVEL_MAX,
-                                LIMNI_PROJECT_TO_LIMIT, rows),
+                                LIMNI_PROJECT_TO_LIMIT, rows, NULL),
                 LIMN_BAKE_OK);
     const limn_domain *const domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE);
     for (uint32_t row = 0; row < 153; row++) {

@@ -20,13 +20,15 @@ typedef struct subject {
     limn_baker *baker;
     limn_pack pack;
     limn_mesh baked;
-    uint32_t *patches; ///< [face_count] the patch of each face
+    uint32_t *patches;      ///< [face_count] the patch of each face
+    float *control_normals; ///< [control_count][3]
 } subject;
 
 static unsigned long long total_vertices, total_meshes, refused_meshes;
 
 static bool load(subject *s, const char *path, uint32_t repair, limn_weights weights) {
-    const limn_bake_desc desc = {.repair = repair, .weights = weights};
+    const limn_bake_desc desc = {
+        .repair = repair, .weights = weights, .normals = LIMN_NORMALS_EXACT};
     const void *blob;
     size_t size;
     *s = (subject){.path = path, .context = {.desc = desc}, .baker = limn_baker_create(&desc)};
@@ -42,6 +44,8 @@ static bool load(subject *s, const char *path, uint32_t repair, limn_weights wei
     s->patches = limni_allocate(&s->context, s->mesh.face_count, sizeof *s->patches);
     for (uint32_t patch = 0; patch < s->baked.patch_count; patch++)
         s->patches[limn_mesh_face(&s->baked, patch).face] = patch;
+    s->control_normals = limni_allocate(&s->context, s->baked.control_count, 3 * sizeof(float));
+    limn_mesh_control_normals(&s->baked, s->baked.controls, s->control_normals);
     return true;
 }
 
@@ -56,8 +60,11 @@ static const uint16_t *rows_along(const subject *s, uint32_t h) {
     return s->baked.domain->edge_rows[(h % 3 + 3 - face.rotation) % 3];
 }
 
+/// A position and a normal.
+typedef float vertex[6];
+
 /// How many vertices on shared edges differ in any bit.
-static uint64_t count_differences(const subject *s, uint32_t level, const float (*vertices)[3]) {
+static uint64_t count_differences(const subject *s, uint32_t level, const vertex *vertices) {
     const uint32_t row_count = s->baked.domain->row_counts[level];
     const uint32_t step = LIMN_GRID_SIZE >> level;
     uint64_t differences = 0;
@@ -65,8 +72,8 @@ static uint64_t count_differences(const subject *s, uint32_t level, const float 
         const uint32_t pair = s->mesh.pairs[h];
         if (pair == LIMNI_NONE || pair < h) continue;
         const uint16_t *const along = rows_along(s, h), *const against = rows_along(s, pair);
-        const float(*const a)[3] = vertices + (size_t)s->patches[h / 3] * row_count;
-        const float(*const b)[3] = vertices + (size_t)s->patches[pair / 3] * row_count;
+        const vertex *const a = vertices + (size_t)s->patches[h / 3] * row_count;
+        const vertex *const b = vertices + (size_t)s->patches[pair / 3] * row_count;
         for (uint32_t t = 0; t <= LIMN_GRID_SIZE; t += step) {
             differences += memcmp(a[along[t]], b[against[LIMN_GRID_SIZE - t]], sizeof *a) != 0;
             total_vertices++;
@@ -76,23 +83,39 @@ static uint64_t count_differences(const subject *s, uint32_t level, const float 
 }
 
 static uint64_t evaluate_and_count(subject *s, const limn_kernels *kernels, uint32_t level,
-                                   float (*vertices)[3]) {
+                                   vertex *vertices) {
     s->baked.kernels = kernels;
     const limn_plan plan = limn_plan_uniform(&s->baked, level);
     limn_evaluate(&plan, s->baked.controls, 0, plan.patch_count,
-                  &(limn_output){.vertices = vertices});
-    return count_differences(s, level, (const float(*)[3])vertices);
+                  &(limn_output){.vertices = vertices,
+                                 .stride = sizeof(vertex),
+                                 .normals = &vertices[0][3],
+                                 .normal_stride = sizeof(vertex),
+                                 .control_normals = s->control_normals});
+    return count_differences(s, level, (const vertex *)vertices);
+}
+
+/// Unit length everywhere; where the surface is degenerate, the fallback has it too.
+static void check_unit_normals(const vertex *vertices, uint64_t count) {
+    bool good = true;
+    for (uint64_t v = 0; v < count; v++) {
+        const float *const n = vertices[v] + 3;
+        const double square = (double)n[0] * n[0] + (double)n[1] * n[1] + (double)n[2] * n[2];
+        good &= fabs(square - 1) < 1e-6;
+    }
+    CHECK(good);
 }
 
 static void check_mesh(subject *s) {
     const limn_plan largest = limn_plan_uniform(&s->baked, LIMN_LEVEL_MAX);
-    float(*const first)[3] = malloc((size_t)largest.vertex_count * sizeof *first);
-    float(*const other)[3] = malloc((size_t)largest.vertex_count * sizeof *other);
+    vertex *const first = malloc((size_t)largest.vertex_count * sizeof *first);
+    vertex *const other = malloc((size_t)largest.vertex_count * sizeof *other);
     for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
         const limn_plan plan = limn_plan_uniform(&s->baked, level);
         const limn_kernels *const scalar =
             limn_kernels_select(LIMN_ISA_SCALAR, LIMN_FAMILY_REPRODUCIBLE);
         CHECK_EQUAL(evaluate_and_count(s, scalar, level, first), 0u);
+        check_unit_normals((const vertex *)first, plan.vertex_count);
         for (uint32_t isa = LIMN_ISA_SCALAR << 1; isa <= limn_isa_supported(); isa <<= 1) {
             if (!(limn_isa_supported() & isa)) continue;
             const limn_kernels *const fast = limn_kernels_select(isa, LIMN_FAMILY_FAST);
@@ -200,7 +223,7 @@ static void test_order_matters(const char *path) {
     const size_t index_count =
         (size_t)last->first_index +
         (size_t)last->patch_count * s.baked.classes[last->class_index].control_count;
-    float(*const vertices)[3] = malloc((size_t)plan.vertex_count * sizeof *vertices);
+    vertex *const vertices = malloc((size_t)plan.vertex_count * sizeof *vertices);
     uint32_t *const indices = malloc(index_count * sizeof *indices);
     uint8_t *const slots = malloc(index_count);
     shuffle(&s, indices, slots);

@@ -40,6 +40,12 @@ typedef enum limn_boundary {
     LIMN_BOUNDARY_EDGE_AND_CORNER ///< a boundary vertex with a single face stays where it is
 } limn_boundary;
 
+/// What is stored for normals.
+typedef enum limn_normals {
+    LIMN_NORMALS_NONE, ///< positions only
+    LIMN_NORMALS_EXACT ///< two tangents of the limit surface per row: tables three times as large
+} limn_normals;
+
 /// What may be mended, as bits. Done in this order.
 typedef enum limn_repair {
     LIMN_REPAIR_WELD = 1 << 0, ///< merge control points whose positions are equal
@@ -60,6 +66,7 @@ typedef void limn_bake_progress_fn(void *user, const char *step, uint32_t done, 
 typedef struct limn_bake_desc {
     limn_weights weights;
     limn_boundary boundary;
+    limn_normals normals;
     uint32_t repair; ///< LIMN_REPAIR_… bits; 0: refuse what is not a clean manifold
     limn_bake_note_fn *note;
     limn_bake_progress_fn *progress;

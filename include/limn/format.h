@@ -61,6 +61,11 @@ extern "C" {
 #define LIMN_CHUNK_SLOTS                                                                           \
     LIMN_FORMAT_KIND('S', 'L', 'O', 'T') ///< uint8_t[] or uint16_t[]: slots, parallel to INDX
 
+/// In files with normals: limn_file_normal[control_count], uint32_t[] and float[].
+#define LIMN_CHUNK_NORMALS LIMN_FORMAT_KIND('N', 'R', 'M', 'L')
+#define LIMN_CHUNK_RINGS LIMN_FORMAT_KIND('R', 'I', 'N', 'G')
+#define LIMN_CHUNK_WEIGHTS LIMN_FORMAT_KIND('W', 'G', 'H', 'T')
+
 /// Bit of limn_file_chunk.flags: a reader that does not know this chunk must refuse the file.
 #define LIMN_CHUNK_REQUIRED 1u
 
@@ -94,8 +99,16 @@ typedef struct limn_file_class {
     uint16_t depth;         ///< deepest level of the table; its padded row count is the row stride
     uint16_t valences[4];   ///< of the patch's corners, in row order; 0 beyond the domain's corners
     uint32_t boundary_corners; ///< bit c: corner c lies on a boundary
-    uint32_t reserved;
+    uint32_t table_count;      ///< 1: positions; 3: then the tangents along and across
 } limn_file_class;
+
+/// How the limit normal of a control point follows from the control points around it: two tangents,
+/// each a weighted sum of the point itself and of its ring. Files with normals have one per control point.
+typedef struct limn_file_normal {
+    uint32_t first_ring;   ///< into the ring chunk: `ring_count` control points
+    uint32_t ring_count;   ///< 0: the control point is used by no face
+    uint32_t first_weight; ///< into the weights chunk: [2][1 + ring_count]
+} limn_file_normal;
 
 /// Bytes per slot of the patches of a class.
 static inline uint32_t limn_file_slot_size(const limn_file_class *file_class) {
@@ -133,6 +146,7 @@ LIMN_STATIC_ASSERT(sizeof(limn_file_chunk) == 32, "chunk");
 LIMN_STATIC_ASSERT(offsetof(limn_file_chunk, offset) == 16, "chunk.offset");
 LIMN_STATIC_ASSERT(sizeof(limn_file_class) == 32, "class");
 LIMN_STATIC_ASSERT(offsetof(limn_file_class, valences) == 16, "class.valences");
+LIMN_STATIC_ASSERT(sizeof(limn_file_normal) == 12, "normal");
 LIMN_STATIC_ASSERT(sizeof(limn_file_mesh) == 64, "mesh");
 LIMN_STATIC_ASSERT(offsetof(limn_file_mesh, bounds_min) == 24, "mesh.bounds_min");
 LIMN_STATIC_ASSERT(sizeof(limn_file_run) == 32, "run");

@@ -65,7 +65,8 @@ uint32_t limn_version(void);
     X(LIMN_ERROR_RUN, "the runs of a mesh do not cover its patches one after the other")           \
     X(LIMN_ERROR_FACE, "a patch names a face or a rotation that does not exist")                   \
     X(LIMN_ERROR_INDEX, "a patch's control indices are out of range or not ascending")             \
-    X(LIMN_ERROR_SLOT, "a patch's slot lies outside its class")
+    X(LIMN_ERROR_SLOT, "a patch's slot lies outside its class")                                    \
+    X(LIMN_ERROR_NORMALS, "the data for normals are out of range, not finite or incomplete")
 
 typedef enum limn_result {
 #define LIMN_RESULT_NAME(name, text) name,
@@ -186,6 +187,9 @@ typedef struct limn_mesh {
     const float *tables;
     const struct limn_file_run *runs;
     const struct limn_file_class *classes;
+    const struct limn_file_normal *normals; ///< NULL: the mesh was baked without normals
+    const uint32_t *ring;
+    const float *weights;
     const limn_kernels *kernels;
 } limn_mesh;
 
@@ -243,10 +247,25 @@ typedef struct limn_output {
     void *vertices; ///< vertex 0 of the *plan*, aligned to 4 bytes; written forward within a patch,
                     ///< never read
     uint32_t stride; ///< bytes from vertex to vertex, a multiple of 4; 0 means 12, tightly packed
+    void *
+        normals; ///< normal of vertex 0 of the plan, aligned to 4 bytes: in a stream of its own, or
+                 ///< inside the vertices, with the same stride; NULL: no normals
+    uint32_t normal_stride; ///< bytes from normal to normal, a multiple of 4; 0 means 12
+    const float
+        *control_normals; ///< [mesh->control_count][3] from limn_mesh_control_normals(), for
+                          ///< the corners of the patches; needed with `normals`
 } limn_output;
 
+/// Limit normals of all control points: unit vectors, towards the side from which faces are
+/// counter-clockwise. Where the surface has no tangent plane, and at control points that no face uses, the
+/// normal is (0, 0, 1). Does not allocate, never fails; any thread. The mesh must have normals.
+///
+/// controls  [mesh->control_count][3] floats, model units
+/// normals   out: [mesh->control_count][3] floats; must not overlap the controls
+void limn_mesh_control_normals(const limn_mesh *mesh, const float *controls, float *normals);
+
 /// Evaluates patches [begin, end) of a plan and writes their positions, three floats at the start
-/// of each vertex. Does not allocate, never fails; any number of threads may evaluate disjoint
+/// of each vertex, and if asked to, unit normals of the limit surface, three floats each. Does not allocate, never fails; any number of threads may evaluate disjoint
 /// ranges of one plan into one output. Bytes of a vertex behind its position are left alone. The
 /// same input gives the same bits with every reproducible kernel, and shared vertices of neighbouring
 /// patches get the same bits with any. Both hold if all threads round to nearest and treat denormals

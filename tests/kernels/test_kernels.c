@@ -50,6 +50,8 @@ typedef struct made {
     uint32_t *indices;
     uint8_t *slots;
     float controls[CONTROLS][3];
+    float normals[CONTROLS][3]; ///< of the control points: any vectors will do
+    limn_file_normal none; ///< a mesh with normals has a pointer to these; evaluation reads none
 } made;
 
 /// Coefficients of a class: rows of different support, so that both ways to sum occur in one class.
@@ -94,7 +96,7 @@ static void make(made *m) {
     uint64_t total = 0, index = 0, slot = 0;
     for (uint32_t c = 0; c < CLASSES; c++)
         total += control_counts[c];
-    m->tables = aligned_alloc(64, total * 160 * sizeof(float));
+    m->tables = aligned_alloc(64, 3 * total * 160 * sizeof(float));
     m->indices = malloc(total * PATCHES * sizeof(uint32_t));
     m->slots = malloc(total * PATCHES * 2 + CLASSES);
     uint64_t table = 0;
@@ -102,15 +104,18 @@ static void make(made *m) {
         slot += slot % 2;
         m->classes[c] = (limn_file_class){.table_offset = table * sizeof(float),
                                           .control_count = control_counts[c],
+                                          .table_count = 3,
                                           .depth = LIMN_LEVEL_MAX};
         m->runs[c] = (limn_file_run){.class_index = c,
                                      .first_patch = c * PATCHES,
                                      .patch_count = PATCHES,
                                      .first_index = index,
                                      .first_slot = slot};
-        fill_table(m->tables + table, control_counts[c]);
+        for (uint32_t t = 0; t < 3; t++)
+            fill_table(m->tables + table + (uint64_t)t * control_counts[c] * 160,
+                       control_counts[c]);
         fill_run(m, c, index, slot);
-        table += (uint64_t)control_counts[c] * 160;
+        table += (uint64_t)control_counts[c] * 3 * 160;
         index += (uint64_t)control_counts[c] * PATCHES;
         slot += (uint64_t)control_counts[c] * PATCHES * limn_file_slot_size(&m->classes[c]);
     }
@@ -122,7 +127,8 @@ static void make(made *m) {
                           .slots = m->slots,
                           .tables = m->tables,
                           .runs = m->runs,
-                          .classes = m->classes};
+                          .classes = m->classes,
+                          .normals = &m->none};
 }
 
 /// Evaluates a range into a buffer with guards and checks that nothing else was written. Returns
@@ -133,15 +139,21 @@ static size_t evaluate(made *m, const limn_kernels *kernels, uint32_t level, uin
     const limn_plan plan = limn_plan_uniform(&m->mesh, level);
     const size_t size = (size_t)plan.vertex_count * stride;
     memset(buffer, 0xa5, size + 2 * GUARD);
-    limn_evaluate(&plan, m->controls[0], begin, end,
-                  &(limn_output){.vertices = buffer + GUARD, .stride = stride});
+    limn_output output = {.vertices = buffer + GUARD, .stride = stride};
+    const size_t written = stride >= 24 ? 24 : 12; // with room for them, normals
+    if (written == 24) {
+        output.normals = buffer + GUARD + 12;
+        output.normal_stride = stride;
+        output.control_normals = m->normals[0];
+    }
+    limn_evaluate(&plan, m->controls[0], begin, end, &output);
 
     const size_t row_count = plan.mesh->domain->row_counts[level];
     const size_t first = begin * row_count, last = end * row_count;
     bool untouched = true;
     for (size_t b = 0; b < size + 2 * GUARD; b++) {
         const bool inside = b >= GUARD + first * stride && b < GUARD + last * stride;
-        if (inside && (b - GUARD) % stride < 3 * sizeof(float)) continue;
+        if (inside && (b - GUARD) % stride < written) continue;
         untouched &= buffer[b] == 0xa5;
     }
     CHECK(untouched);
@@ -254,18 +266,42 @@ static void test_precision(made *m, const limn_kernels *kernels) {
 /// The bits of a whole evaluation at every level: the same from all reproducible kernels, whatever the
 /// compiler and its flags. If this changes, results change for everybody.
 static void test_golden(made *m, const limn_kernels *kernels) {
-    static const uint64_t golden[LIMN_LEVEL_COUNT] = {0xdbd0f80e3e1db84au, 0x8181453c17f46721u,
-                                                      0x9e6da1af2dbe1101u, 0xfe7a91c99c87cf7au,
-                                                      0x5a06899322b6f3ddu};
+    static const uint64_t golden[LIMN_LEVEL_COUNT] = {0xb4f9a3bed2503751u, 0x9989404106379bb6u,
+                                                      0x62a3a01d8336f8f2u, 0x26878e699788b882u,
+                                                      0x4feb16fd010b8767u};
     m->mesh.kernels = kernels;
     for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
         const limn_plan plan = limn_plan_uniform(&m->mesh, level);
-        limn_evaluate(&plan, m->controls[0], 0, plan.patch_count,
-                      &(limn_output){.vertices = actual});
-        const uint64_t hash = limni_checksum(actual, (size_t)plan.vertex_count * 12);
+        evaluate(m, kernels, level, 24, 0, plan.patch_count, actual); // with normals
+        const uint64_t hash = limni_checksum(actual + GUARD, (size_t)plan.vertex_count * 24);
         if (!CHECK(hash == golden[level]))
             fprintf(stderr, "    %s: level %u: 0x%016llx\n", limn_kernels_name(kernels), level,
                     (unsigned long long)hash);
+    }
+}
+
+/// Normals in a stream of their own are those inside the vertices; corners have the control points'.
+static void test_normal_stream(made *m, const limn_kernels *kernels) {
+    static float normals[CLASSES * PATCHES * 153][3];
+    for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
+        const limn_plan plan = limn_plan_uniform(&m->mesh, level);
+        evaluate(m, kernels, level, STRIDE_MAX, 0, plan.patch_count, expected);
+        limn_evaluate(&plan, m->controls[0], 0, plan.patch_count,
+                      &(limn_output){.vertices = actual,
+                                     .normals = normals,
+                                     .control_normals = m->normals[0]});
+        bool same = true;
+        for (size_t v = 0; v < plan.vertex_count; v++)
+            same &= memcmp(normals[v], expected + GUARD + STRIDE_MAX * v + 12, 12) == 0;
+        CHECK(same);
+        for (uint32_t patch = 0; patch < plan.patch_count; patch++) {
+            uint32_t corners[LIMN_CORNER_MAX];
+            if (control_counts[patch / PATCHES] < 3) continue;
+            limn_mesh_corners(&m->mesh, patch, corners);
+            for (uint32_t c = 0; c < 3; c++)
+                CHECK(memcmp(normals[limn_plan_first_vertex(&plan, patch) + c],
+                             m->normals[corners[c]], 12) == 0);
+        }
     }
 }
 
@@ -290,6 +326,7 @@ static void test_kernels(made *m, const limn_kernels *kernels, point_kind kind) 
     test_ranges(m, kernels);
     test_split(m, kernels);
     test_prefix(m, kernels);
+    test_normal_stream(m, kernels);
 }
 
 int main(void) {
@@ -300,6 +337,8 @@ int main(void) {
         for (uint32_t c = 0; c < CONTROLS; c++) {
             for (int axis = 0; axis < 3; axis++)
                 m.controls[c][axis] = random_coordinate((point_kind)kind);
+            for (int axis = 0; axis < 3; axis++)
+                m.normals[c][axis] = random_float(-1, 1) + 0.0f;
         }
         m.mesh.origin[1] = kind == RANDOM ? 7.25f : 0;
         for (uint32_t isa = 1; isa <= LIMN_ISA_NEON; isa <<= 1) {

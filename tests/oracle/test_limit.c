@@ -11,7 +11,7 @@
 #include <stdlib.h>
 
 static const double tolerance = 3e-7;
-static double largest_of_all;
+static double largest_of_all, largest_angle;
 
 static bool bake(limn_baker *baker, const char *path, limn_pack *pack) {
     const void *blob;
@@ -31,9 +31,16 @@ static bool compare(const char *path, const limn_bake_desc *desc) {
         limni_context context = {.desc = *desc};
         limni_comparison comparison;
         if (CHECK_EQUAL(limni_compare(&context, &pack, &mesh, path, &comparison), LIMN_BAKE_OK)) {
-            printf("%-32s %8u faces  largest %.2e  mean %.2e\n", mesh.name, mesh.patch_count,
-                   comparison.largest, comparison.mean);
+            printf("%-32s %8u faces  largest %.2e  mean %.2e  normals %.2e %.2e  degenerate %llu\n",
+                   mesh.name, mesh.patch_count, comparison.largest, comparison.mean,
+                   comparison.largest_angle, comparison.mean_angle,
+                   (unsigned long long)comparison.degenerate_count);
             CHECK(comparison.largest <= tolerance);
+            // One mesh has faces of a two-thousandth of its size, where rounding shows: see reach.
+            CHECK(comparison.largest_excess <= 5e-4 && comparison.mean_angle <= 2e-5);
+            CHECK(comparison.largest_angle <= 5e-4 || strstr(path, "mannequin-devil"));
+            CHECK(comparison.normal_count > comparison.degenerate_count);
+            if (comparison.largest_angle > largest_angle) largest_angle = comparison.largest_angle;
             CHECK(comparison.largest > 0); // two computations that are not the same one
             if (comparison.largest > largest_of_all) largest_of_all = comparison.largest;
         } else {
@@ -46,9 +53,10 @@ static bool compare(const char *path, const limn_bake_desc *desc) {
 }
 
 static void visit(const char *path) {
-    const limn_bake_desc strict = {.boundary = LIMN_BOUNDARY_EDGE_ONLY};
-    const limn_bake_desc corners = {.boundary = LIMN_BOUNDARY_EDGE_AND_CORNER};
-    const limn_bake_desc repaired = {.repair = LIMN_REPAIR_ALL};
+    const limn_bake_desc strict = {.normals = LIMN_NORMALS_EXACT};
+    const limn_bake_desc corners = {.boundary = LIMN_BOUNDARY_EDGE_AND_CORNER,
+                                    .normals = LIMN_NORMALS_EXACT};
+    const limn_bake_desc repaired = {.repair = LIMN_REPAIR_ALL, .normals = LIMN_NORMALS_EXACT};
     if (compare(path, &strict)) {
         if (strstr(path, "opensubdiv_shapes") || strstr(path, "sail")) compare(path, &corners);
     } else {
@@ -58,6 +66,7 @@ static void visit(const char *path) {
 
 int main(void) {
     CHECK(mesh_files_visit(visit) > 0);
-    printf("largest difference of all: %.2e of the diagonal\n", largest_of_all);
+    printf("largest difference of all: %.2e of the diagonal, %.2e radians\n", largest_of_all,
+           largest_angle);
     return check_report();
 }

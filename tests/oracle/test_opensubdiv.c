@@ -26,7 +26,7 @@ static point *evaluate(const limni_opensubdiv_mesh *mesh) {
     char error[256];
     point *limit = malloc(mesh->face_count * ROW_COUNT * sizeof(point));
     if (limit == NULL) abort();
-    if (CHECK(limni_opensubdiv_limit(mesh, limit, error, sizeof error))) {
+    if (CHECK(limni_opensubdiv_limit(mesh, limit, NULL, error, sizeof error))) {
         CHECK_TEXT(error, "");
         return limit;
     }
@@ -291,11 +291,11 @@ static void check_refused(const uint32_t *faces, uint32_t face_count, const char
                                         .level = LIMN_LEVEL_MAX};
     limni_opensubdiv_stencils stencils;
     char error[256] = "";
-    CHECK(!limni_opensubdiv_limit(&mesh, limit, error, sizeof error));
+    CHECK(!limni_opensubdiv_limit(&mesh, limit, NULL, error, sizeof error));
     CHECK_CONTAINS(error, part);
     CHECK(!limni_opensubdiv_stencil_bytes(&mesh, true, &stencils, error, sizeof error));
     CHECK_CONTAINS(error, part);
-    CHECK(!limni_opensubdiv_limit(&mesh, limit, error, 4)); // the text is cut, not overrun
+    CHECK(!limni_opensubdiv_limit(&mesh, limit, NULL, error, 4)); // the text is cut, not overrun
     CHECK_EQUAL(strlen(error), 3);
 }
 
