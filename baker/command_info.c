@@ -14,7 +14,8 @@ static const char help[] =
     "  --json       as JSON, with the keys\n"
     "                 file.{version,size,table_size,class_count,bake}\n"
     "                 "
-    "meshes[].{name,faces,control_points,patches,patch_size,bytes_per_face,class_count}\n"
+    "meshes[].{name,faces,control_points,patches,patch_size,bytes_per_face,normals_size,\n"
+    "                           class_count}\n"
     "                 classes[].{control_points,table_size,use_count,valences,boundary_corners}\n"
     "  -h, --help   this text\n\n"
     "Sizes are in bytes. patch_size is what a mesh stores for its patches (runs, faces, control\n"
@@ -23,8 +24,8 @@ static const char help[] =
 
 static uint64_t table_size(const limn_file_class *class) {
     const limn_domain *const domain = limn_domain_get((limn_domain_kind) class->domain);
-    return (uint64_t) class->control_count * domain->padded_row_counts[class->depth] *
-           sizeof(float);
+    return (uint64_t) class->table_count * class->control_count *
+           domain->padded_row_counts[class->depth] * sizeof(float);
 }
 
 /// Bytes of the patches of a mesh: all that grows with its faces.
@@ -35,6 +36,14 @@ static uint64_t patch_size(const limn_mesh *mesh) {
         const uint64_t slot_size = limn_file_slot_size(&mesh->classes[mesh->runs[r].class_index]);
         size += (uint64_t)mesh->runs[r].patch_count * controls * (sizeof(uint32_t) + slot_size);
     }
+    return size;
+}
+
+/// Bytes of a mesh's records and rings for the normals of its control points, 0 without normals.
+static uint64_t normals_size(const limn_mesh *mesh) {
+    uint64_t size = 0;
+    for (uint32_t c = 0; c < mesh->control_count && mesh->normals; c++)
+        size += sizeof *mesh->normals + mesh->normals[c].ring_count * sizeof *mesh->ring;
     return size;
 }
 
@@ -91,6 +100,7 @@ static json_t *describe_mesh(const limn_mesh *mesh) {
     json_object_set_new(object, "patch_size", json_size(size));
     json_object_set_new(object, "bytes_per_face",
                         json_real(mesh->patch_count ? (double)size / mesh->patch_count : 0));
+    json_object_set_new(object, "normals_size", json_size(normals_size(mesh)));
     json_object_set_new(object, "class_count", json_integer(mesh->run_count));
     return object;
 }

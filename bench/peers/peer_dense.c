@@ -42,7 +42,7 @@ static void destroy(void *self_state) {
 /// The vertices in the bind pose, from Limn.
 static void evaluate_unique(const peer_scene *scene, float (*positions)[3]) {
     limn_pack pack;
-    if (limn_pack_open(&pack, scene->blob, scene->blob_size) != LIMN_OK) exit(1);
+    if (limn_pack_open(&pack, scene->baked.blob, scene->baked.blob_size) != LIMN_OK) exit(1);
     const limn_mesh mesh = limn_pack_mesh(&pack, 0);
     const limn_plan plan = limn_plan_uniform(&mesh, scene->level);
     float(*const all)[3] = bench_allocate((size_t)plan.vertex_count, sizeof *all);

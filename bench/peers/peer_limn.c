@@ -18,27 +18,39 @@ typedef struct state {
     limn_plan plan;
     limn_output output;
     const float *controls;
-    uint32_t *patches;   ///< [face_count] the patch of a face
-    uint16_t (*rows)[3]; ///< [row_count] the row of a patch with that rotation
-    float (*skinned)[3]; ///< [control_count], and one float; NULL without skinning
+    float (*control_normals)[3]; ///< [control_count]; NULL: positions only
+    uint32_t *patches;           ///< [face_count] the patch of a face
+    uint16_t (*rows)[3];         ///< [row_count] the row of a patch with that rotation
+    float (*skinned)[3];         ///< [control_count], and one float; NULL without skinning
     skin_mesh skin;
     skin_fn *skin_controls;
 } state;
 
 /// What Limn can write so far. Adding PEER_POSITION_NORMAL here gives all peers with derivatives or
 /// normals their ratio.
-static const peer_output outputs[] = {PEER_POSITION};
+static const peer_output outputs[] = {PEER_POSITION, PEER_POSITION_NORMAL};
 
 enum { OUTPUT_COUNT = sizeof outputs / sizeof *outputs };
 
 static void set_output(state *self, peer_output output) {
-    (void)output;
+    const size_t count = (size_t)self->plan.vertex_count;
     self->output = (limn_output){.stride = 3 * sizeof(float)};
-    self->output.vertices = bench_allocate((size_t)self->plan.vertex_count, self->output.stride);
+    self->output.vertices = bench_allocate(count, self->output.stride);
+    if (output == PEER_POSITION) return;
+    self->control_normals = bench_allocate(self->mesh.control_count, sizeof *self->control_normals);
+    self->output.normals = bench_allocate(count, 3 * sizeof(float));
+    self->output.control_normals = self->control_normals[0];
+}
+
+/// Every frame, like the evaluation.
+static void find_control_normals(state *self) {
+    if (!self->control_normals) return;
+    limn_mesh_control_normals(&self->mesh, self->controls, self->control_normals[0]);
 }
 
 static void evaluate(void *self_state) {
     state *const self = self_state;
+    find_control_normals(self);
     limn_evaluate(&self->plan, self->controls, 0, self->plan.patch_count, &self->output);
 }
 
@@ -51,6 +63,7 @@ static void evaluate_part(void *self_state, uint32_t part, uint32_t part_count) 
 
 static void evaluate_in_parts(void *self_state) {
     state *const self = self_state;
+    find_control_normals(self);
     team_run(self->scene->threads, evaluate_part, self);
 }
 
@@ -74,6 +87,8 @@ static void destroy(void *self_state) {
     free(self->patches);
     free(self->rows);
     free(self->output.vertices);
+    free(self->output.normals);
+    free(self->control_normals);
     free(self->skinned);
     skin_destroy(&self->skin);
     free(self);
@@ -92,12 +107,12 @@ static void find_rows(state *self) {
 }
 
 /// The median of some loads, as all of the file is read once.
-static double time_load(const peer_scene *scene, limn_pack *pack) {
+static double time_load(const scene_baked *baked, limn_pack *pack) {
     enum { LOADS = 9 };
     double seconds[LOADS];
     for (int load = 0; load < LOADS; load++) {
         const double start = bench_seconds();
-        if (limn_pack_open(pack, scene->blob, scene->blob_size) != LIMN_OK) exit(1);
+        if (limn_pack_open(pack, baked->blob, baked->blob_size) != LIMN_OK) exit(1);
         seconds[load] = bench_seconds() - start;
     }
     return 1e3 * bench_median(seconds, LOADS);
@@ -107,7 +122,9 @@ static peer *append(peer_list *list, const peer_scene *scene, const limn_kernels
                     peer_output output) {
     state *const self = bench_allocate(1, sizeof *self);
     self->scene = scene;
-    const double load_ms = time_load(scene, &self->pack);
+    const scene_baked *const baked =
+        output == PEER_POSITION ? &scene->baked : &scene->baked_with_normals;
+    const double load_ms = time_load(baked, &self->pack);
     self->pack.kernels = kernels;
     self->mesh = limn_pack_mesh(&self->pack, 0);
     self->plan = limn_plan_uniform(&self->mesh, scene->level);
@@ -122,10 +139,10 @@ static peer *append(peer_list *list, const peer_scene *scene, const limn_kernels
         .isa = limn_kernels_name(kernels),
         .family = limn_kernels_family(kernels) == LIMN_FAMILY_FAST ? "fast" : "reproducible",
         .threads = 1,
-        .build_ms = scene->bake_ms,
+        .build_ms = baked->ms,
         .load_ms = load_ms,
         // All but the bind pose, which is an input of the others too.
-        .byte_count = scene->blob_size - scene->control_count * sizeof *scene->controls,
+        .byte_count = baked->blob_size - scene->control_count * sizeof *scene->controls,
         .state = self,
         .run = evaluate,
         .position = position,

@@ -20,6 +20,14 @@ extern "C" {
 /// A rigid transformation as four columns, each padded to four floats.
 typedef float scene_bone[16];
 
+/// A .limn file in memory.
+typedef struct scene_baked {
+    const void *blob;
+    size_t blob_size;
+    double ms;                ///< that baking took
+    struct limn_baker *baker; ///< owns the blob
+} scene_baked;
+
 /// A row of a face is a row of the triangle domain with corner c of the face as corner c.
 typedef struct peer_scene {
     char name[64];
@@ -32,10 +40,7 @@ typedef struct peer_scene {
     uint32_t (*faces)[3]; ///< [face_count] in the order of the file
     uint32_t face_count;
 
-    const void *blob; ///< baked from the above, in memory
-    size_t blob_size;
-    double bake_ms;
-    struct limn_baker *baker; ///< owns the blob
+    scene_baked baked, baked_with_normals; ///< from the above, in memory
 
     /// [face_count][row_count] vertices of the refined mesh, numbered as by topology_refine().
     uint32_t *refined;
