@@ -27,7 +27,7 @@ typedef struct patch {
     size_t row_stride;
     size_t control_count;
     const void *slots;
-    const float (*points)[3]; ///< relative to the origin, in the order of the slots
+    const float (*points)[4]; ///< relative to the origin, in the order of the slots
 } patch;
 
 static inline const float *column_of(const patch *p, uint32_t slot_size, size_t k) {
@@ -122,12 +122,9 @@ static LIMNI_NOINLINE void evaluate_narrow_patch(const patch *p, size_t row_coun
 }
 
 static inline void gather(const uint32_t *indices, size_t count, const limni_points *from,
-                          float (*points)[3]) {
-    for (size_t k = 0; k < count; k++) {
-        const float *const control = from->controls + 3 * (size_t)indices[k];
-        for (int axis = 0; axis < 3; axis++)
-            points[k][axis] = control[axis] - from->origin[axis];
-    }
+                          float (*points)[4]) {
+    for (size_t k = 0; k < count; k++)
+        lanes_subtract_point(points[k], from->controls + 3 * (size_t)indices[k], from->origin);
 }
 
 /// Unit normals from two tangents. Along a shared edge the neighbour has both tangents negated, bit for
@@ -233,7 +230,7 @@ static inline void set_corner_normals(const limni_run *run, const uint32_t *indi
 }
 
 /// `points` has room for one patch.
-static inline void evaluate_patches(const limni_run *run, float (*points)[3],
+static inline void evaluate_patches(const limni_run *run, float (*points)[4],
                                     const limni_points *from, const limni_target *target) {
     const size_t row_count = target->padded_row_count, control_count = run->control_count;
     for (size_t i = 0; i < run->patch_count; i++) {
@@ -243,7 +240,7 @@ static inline void evaluate_patches(const limni_run *run, float (*points)[3],
         patch p = {.row_stride = run->row_stride,
                    .control_count = control_count,
                    .slots = slots,
-                   .points = (const float(*)[3])points};
+                   .points = (const float(*)[4])points};
         vectors positions, along, across, normals;
         gather(indices, control_count, from, points);
         evaluate_table(&p, run, 0, row_count, &positions);
@@ -260,10 +257,10 @@ static inline void evaluate_patches(const limni_run *run, float (*points)[3],
 static void evaluate_run(const limni_run *run, const limni_points *from,
                          const limni_target *target) {
     if (run->slot_size == 1) {
-        float points[LIMN_FORMAT_NARROW_SLOTS][3];
+        _Alignas(16) float points[LIMN_FORMAT_NARROW_SLOTS][4];
         evaluate_patches(run, points, from, target);
     } else {
-        float points[LIMN_FORMAT_CONTROLS_MAX][3];
+        _Alignas(16) float points[LIMN_FORMAT_CONTROLS_MAX][4];
         evaluate_patches(run, points, from, target);
     }
 }

@@ -27,6 +27,13 @@ static inline lanes lanes_load(const float *src) {
 static inline void lanes_store(float *dst, lanes a) {
     _mm256_store_ps(dst, a);
 }
+/// Writes a - b, three floats and one more of any value. dst: aligned to 16 bytes.
+static inline void lanes_subtract_point(float *dst, const float *a, const float *b) {
+    const __m128 ax = _mm_loadl_pi(_mm_setzero_ps(), (const __m64 *)(const void *)a);
+    const __m128 bx = _mm_loadl_pi(_mm_setzero_ps(), (const __m64 *)(const void *)b);
+    const __m128 az = _mm_load_ss(a + 2), bz = _mm_load_ss(b + 2);
+    _mm_store_ps(dst, _mm_sub_ps(_mm_movelh_ps(ax, az), _mm_movelh_ps(bx, bz)));
+}
 /// Writes x y z, lane after lane. dst: aligned to 4 bytes.
 static inline void lanes_store_xyz(float *dst, lanes x, lanes y, lanes z) {
     // As for SSE2 in each half; then the halves go behind one another.

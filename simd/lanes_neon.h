@@ -22,6 +22,12 @@ static inline lanes lanes_load(const float *src) {
 static inline void lanes_store(float *dst, lanes a) {
     vst1q_f32(dst, a);
 }
+/// Writes a - b, three floats and one more of any value. dst: aligned to 16 bytes.
+static inline void lanes_subtract_point(float *dst, const float *a, const float *b) {
+    const float32x2_t az = vld1_lane_f32(a + 2, vdup_n_f32(0.0f), 0);
+    const float32x2_t bz = vld1_lane_f32(b + 2, vdup_n_f32(0.0f), 0);
+    vst1q_f32(dst, vsubq_f32(vcombine_f32(vld1_f32(a), az), vcombine_f32(vld1_f32(b), bz)));
+}
 /// Writes x y z, lane after lane. dst: aligned to 4 bytes.
 static inline void lanes_store_xyz(float *dst, lanes x, lanes y, lanes z) {
     const float32x4x3_t xyz = {{x, y, z}};

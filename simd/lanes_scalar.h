@@ -22,6 +22,11 @@ static inline lanes lanes_load(const float *src) {
 static inline void lanes_store(float *dst, lanes a) {
     *dst = a;
 }
+/// Writes a - b, three floats and one more of any value. dst: aligned to 16 bytes.
+static inline void lanes_subtract_point(float *dst, const float *a, const float *b) {
+    for (int axis = 0; axis < 3; axis++)
+        dst[axis] = a[axis] - b[axis];
+}
 /// Writes x y z, lane after lane. dst: aligned to 4 bytes.
 static inline void lanes_store_xyz(float *dst, lanes x, lanes y, lanes z) {
     dst[0] = x;
