@@ -190,7 +190,7 @@ int bench_bake(int argc, char **argv) {
         if (option != 'g') return 2;
         squares = (uint32_t)strtoul(optarg, NULL, 10);
     }
-    bench_print_conditions();
+    bench_print_conditions(stdout);
     printf("%-28s %9s %8s %9s %9s %12s %13s %14s %14s\n", "mesh", "faces", "classes", "seconds",
            "peak MiB", "patch B/face", "table bytes", "all B/face", "OpenSubdiv");
     bool good = squares == 0 || bench_mesh(NULL, squares);

@@ -4,6 +4,7 @@
 #define BENCH_H
 
 #include <stddef.h>
+#include <stdio.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -20,7 +21,7 @@ double bench_seconds(void);
 double bench_median(double *values, int count);
 
 /// One line on what ran where: version, compiler, flags, CPU.
-void bench_print_conditions(void);
+void bench_print_conditions(FILE *stream);
 
 /// The CPU's name for itself; "" where it cannot be had.
 void bench_cpu_name(char *name, size_t size);

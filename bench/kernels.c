@@ -323,6 +323,8 @@ static void print_mix(const session *s, const mix *m, const struct output_kind *
 static bool write_csv(const session *s) {
     FILE *const file = fopen(s->options.csv, "w");
     if (!file) return false;
+    fprintf(file, "# ");
+    bench_print_conditions(file);
     fprintf(file, "mesh,output,isa,family,order,tables,level,ns_per_patch,vertices_per_second,"
                   "peak_multiply_adds_per_second,peak_share,peak_stored_bytes_per_second,"
                   "store_share\n");
@@ -437,7 +439,7 @@ static bool run(session *s, char **paths, int path_count) {
     if (!add_mixes(s, paths, path_count)) return false;
     add_cells(s);
     measure(s);
-    bench_print_conditions();
+    bench_print_conditions(stdout);
     printf("%d rounds; vertices go to a buffer of %zu KiB\n", s->options.rounds,
            s->options.buffer_size / 1024);
     print_peaks(s);

@@ -37,9 +37,9 @@ void bench_cpu_name(char *name, size_t size) {
     if (file) fclose(file);
 }
 
-void bench_print_conditions(void) {
+void bench_print_conditions(FILE *stream) {
     char cpu[128];
     bench_cpu_name(cpu, sizeof cpu);
-    printf("limn %d.%d.%d, commit %s, %s, flags %s, CPU %s\n", LIMN_VERSION_MAJOR,
-           LIMN_VERSION_MINOR, LIMN_VERSION_PATCH, BENCH_COMMIT, BENCH_COMPILER, BENCH_FLAGS, cpu);
+    fprintf(stream, "limn %d.%d.%d, commit %s, %s, flags %s, CPU %s\n", LIMN_VERSION_MAJOR,
+            LIMN_VERSION_MINOR, LIMN_VERSION_PATCH, BENCH_COMMIT, BENCH_COMPILER, BENCH_FLAGS, cpu);
 }

@@ -280,7 +280,7 @@ int bench_peers(int argc, char **argv) {
     const int status = read_options(argc, argv, &options);
     if (status >= 0) return status;
 
-    bench_print_conditions();
+    bench_print_conditions(stdout);
     peer_result *const results =
         bench_allocate((size_t)(argc - optind) * PEER_MAX, sizeof *results);
     uint32_t count = 0;
