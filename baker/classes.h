@@ -2,8 +2,9 @@
 /*
  * The classes of a file: a dictionary from keys to stencil tables, shared by all its meshes.
  *
- * A key names all control points around a face, but at a boundary not all of them have a say. Columns
- * that are zero everywhere are left out of the tables, and keys whose tables turn out equal share one.
+ * A key names all control points around a face, but at a boundary not all of them have a say.
+ * Columns that are zero everywhere are left out of the tables, and keys whose tables turn out equal
+ * share one.
  */
 #ifndef LIMNI_CLASSES_H
 #define LIMNI_CLASSES_H

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Limit normals of the control points: what a file stores so that they can be computed every frame. */
+/* Limit normals of the control points: what a file stores to compute them every frame. */
 #ifndef LIMNI_CONTROL_NORMALS_H
 #define LIMNI_CONTROL_NORMALS_H
 

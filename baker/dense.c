@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-/// Where a vertex lies on the control mesh, the same for all patches that have it: a <= b are the ends of
-/// its base edge and `step` counts from a; at a corner both are that control point.
+/// Where a vertex lies on the control mesh, the same for all patches that have it: a <= b are the
+/// ends of its base edge and `step` counts from a; at a corner both are that control point.
 typedef struct place {
     uint32_t a, b, step;
 } place;

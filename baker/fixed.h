@@ -44,8 +44,8 @@ static inline limni_fixed limni_fixed_ratio(int64_t numerator, int64_t denominat
     return (limni_fixed)limni_wide_divide((limni_wide)numerator * LIMNI_FIXED_ONE, denominator);
 }
 
-/// The point at j/n of a turn on the unit circle, n >= 1, to 1e-17. No libm: its last bit differs between
-/// versions. Mirrored angles give mirrored numbers, exactly.
+/// The point at j/n of a turn on the unit circle, n >= 1, to 1e-17. No libm: its last bit differs
+/// between versions. Mirrored angles give mirrored numbers, exactly.
 typedef struct limni_fixed_unit {
     limni_fixed cosine, sine;
 } limni_fixed_unit;

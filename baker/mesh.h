@@ -11,8 +11,8 @@
 
 #define LIMNI_NONE 0xffffffffu
 
-/// Vertices, and corners of all faces, of a source: half-edges, and hash tables of twice as many, fit in 32 bits, and
-/// faces in the 30 bits that the file has for them.
+/// Vertices, and corners of all faces, of a source: half-edges, and hash tables of twice as many,
+/// fit in 32 bits, and faces in the 30 bits that the file has for them.
 #define LIMNI_CORNERS_MAX (1u << 28)
 
 typedef struct limni_mesh {

@@ -33,8 +33,8 @@ typedef struct limni_opensubdiv_mesh {
 ///
 /// limit             out: [face_count][domain->row_counts[level]], the rows of the triangle domain
 ///                   with corner c of the face as corner c of the domain; untouched on failure
-/// tangents          out, or NULL: two tangents at the same places, of any length; their cross product
-///                   is the normal
+/// tangents          out, or NULL: two tangents at the same places, of any length; their
+///                   cross product is the normal
 /// error             [error_size] bytes, error_size > 0; "" on success
 bool limni_opensubdiv_limit(const limni_opensubdiv_mesh *mesh, double (*limit)[3],
                             double (*tangents)[2][3], char *error, size_t error_size);

@@ -209,8 +209,8 @@ static limn_bake_status check_agreement(limni_context *context, const limni_mesh
 
 // ---- All steps
 
-/// Bounds of the control points that faces use. The origin is 0 where that is as good as any, so that
-/// most meshes do not depend on their bounds.
+/// Bounds of the control points that faces use. The origin is 0 where that is as good as any, so
+/// that most meshes do not depend on their bounds.
 static void find_bounds(const limni_mesh *mesh, limn_file_mesh *record) {
     for (int axis = 0; axis < 3; axis++) {
         float low = INFINITY, high = -INFINITY;

@@ -39,10 +39,10 @@ limni_vertex_rule limni_loop_rule(const limni_rules *rules, bool closed, uint32_
 void limni_loop_vertex_mask(const limni_rules *rules, const limni_star *star, limni_fixed *weights);
 void limni_loop_limit_mask(const limni_rules *rules, const limni_star *star, limni_fixed *weights);
 
-/// Weights of two tangents of the limit surface at a vertex, as above; they sum to 0. Their cross product
-/// points to the side from which the ring is counter-clockwise. In a closed ring `along` points towards
-/// ring vertex `start`, and starting from the opposite vertex of an even ring negates both exactly; in an
-/// open ring `along` follows the boundary.
+/// Weights of two tangents of the limit surface at a vertex, as above; they sum to 0. Their cross
+/// product points to the side from which the ring is counter-clockwise. In a closed ring `along`
+/// points towards ring vertex `start`, and starting from the opposite vertex of an even ring
+/// negates both exactly; in an open ring `along` follows the boundary.
 void limni_loop_tangent_masks(const limni_star *star, uint32_t start, limni_fixed *along,
                               limni_fixed *across);
 

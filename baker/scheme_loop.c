@@ -73,12 +73,12 @@ static void smooth_tangents(const limni_star *star, uint32_t start, limni_fixed 
     }
 }
 
-/// Across a boundary, pointing into the surface: the left eigenvector of the boundary vertex's subdivision
-/// matrix that is symmetric and sin(k z), z = pi / (n - 1), on the inner neighbours k. Its eigenvalue is
-/// 3/8 + cos(z) / 4; the weights of the ends and of the vertex solve the two equations that are left. For
-/// n = 3 and 4 these are the masks (-1; 0 1 0) and (-2; -1 2 2 -1). The mask in print for n >= 5 (Hoppe,
-/// Lomont) belongs to Hoppe's boundary rules and not to the cubic B-spline's. All times sin(z), so that
-/// no term is large.
+/// Across a boundary, pointing into the surface: the left eigenvector of the boundary vertex's
+/// subdivision matrix that is symmetric and sin(k z), z = pi / (n - 1), on the inner neighbours k.
+/// Its eigenvalue is 3/8 + cos(z) / 4; the weights of the ends and of the vertex solve the two
+/// equations that are left. For n = 3 and 4 these are the masks (-1; 0 1 0) and (-2; -1 2 2 -1).
+/// The mask in print for n >= 5 (Hoppe, Lomont) belongs to Hoppe's boundary rules and not to the
+/// cubic B-spline's. All times sin(z), so that no term is large.
 static void boundary_tangent(const limni_star *star, limni_fixed *across) {
     const limni_fixed one = LIMNI_FIXED_ONE;
     const uint32_t n = star->count;

@@ -133,8 +133,8 @@ static bool find_cut(const polygon *p, const edge_set *edges, bool existing, con
     return found;
 }
 
-/// New diagonals come first, then ears, then short ones. Whether a corner is an ear takes longest to
-/// find out, and is asked last: of most polygons the first cut that is tried is one.
+/// New diagonals come first, then ears, then short ones. Whether a corner is an ear takes longest
+/// to find out, and is asked last: of most polygons the first cut that is tried is one.
 static uint32_t best_corner(const polygon *p, const edge_set *edges) {
     cut shortest, tried;
     const bool existing = !find_cut(p, edges, false, NULL, &shortest);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The .limn file: a header, a directory sorted by mesh and kind, and chunks. Laid out twice: once
- * to find the offsets, once to copy. Records are written as the host has them; what was made is opened
- * before it is handed out, which also refuses a big-endian host.
+ * to find the offsets, once to copy. Records are written as the host has them; what was made is
+ * opened before it is handed out, which also refuses a big-endian host.
  */
 #include "write.h"
 

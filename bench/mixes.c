@@ -51,8 +51,8 @@ static void place_points(torus *t) {
     }
 }
 
-/// Two triangles to a square: edge 0 of the lower one lies below, edge 1 to the right, edge 2 is the
-/// diagonal; edge 0 of the upper one is the diagonal, edge 1 lies above, edge 2 to the left.
+/// Two triangles to a square: edge 0 of the lower one lies below, edge 1 to the right, edge 2 is
+/// the diagonal; edge 0 of the upper one is the diagonal, edge 1 lies above, edge 2 to the left.
 static void connect_square(torus *t, uint32_t x, uint32_t y) {
     const uint32_t side = t->side;
     const uint32_t lower = 6 * point_at(t, x, y), upper = lower + 3;

@@ -6,7 +6,8 @@
  *     PEAK_FUSED     a * b + c in one instruction; only for the fast family
  *     PEAK_CHAINS    independent sums: enough to hide the latency of a sum
  *
- * and includes this. After a change look at the assembly: the loop of compute() must not touch memory.
+ * and includes this. After a change look at the assembly: the loop of compute() must not touch
+ * memory.
  */
 #include "peak.h"
 

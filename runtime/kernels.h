@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * One table of kernels per instruction set. To add an instruction set: a lanes_<isa>.h, a
- * kernels_<isa>.c and a line in kernels.c and in simd/CMakeLists.txt. To add a kernel: a body and a field.
+ * kernels_<isa>.c and a line in kernels.c and in simd/CMakeLists.txt. To add a kernel: a body and a
+ * field.
  */
 #ifndef LIMNI_KERNELS_H
 #define LIMNI_KERNELS_H

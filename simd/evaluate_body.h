@@ -115,8 +115,8 @@ static inline void evaluate_tiles(const patch *p, uint32_t slot_size, size_t row
     }
 }
 
-/// Not inlined: what a compiler would keep in registers around the loop over patches are registers that
-/// the accumulators need (gcc 12 spills all three splats).
+/// Not inlined: what a compiler would keep in registers around the loop over patches are registers
+/// that the accumulators need (gcc 12 spills all three splats).
 static LIMNI_NOINLINE void evaluate_narrow_patch(const patch *p, size_t row_count, vectors *out) {
     evaluate_tiles(p, 1, row_count, out);
 }
@@ -127,8 +127,8 @@ static inline void gather(const uint32_t *indices, size_t count, const limni_poi
         lanes_subtract_point(points[k], from->controls + 3 * (size_t)indices[k], from->origin);
 }
 
-/// Unit normals from two tangents. Along a shared edge the neighbour has both tangents negated, bit for
-/// bit, so that products, and all that follows, are the same; adding +0 makes zeros alike.
+/// Unit normals from two tangents. Along a shared edge the neighbour has both tangents negated, bit
+/// for bit, so that products, and all that follows, are the same; adding +0 makes zeros alike.
 static inline void find_normals(const vectors *along, const vectors *across, size_t row_count,
                                 vectors *out) {
     const lanes zero = lanes_zero(), one = lanes_splat(1.0f), least = lanes_splat(FLT_MIN);
@@ -172,8 +172,8 @@ static inline size_t store_packed(const vectors *src, size_t row_count, const fl
     return row;
 }
 
-/// Writes forward only, so that `dst` may be write-combined memory. The origin is added here: in the
-/// sums it would take registers that the accumulators need.
+/// Writes forward only, so that `dst` may be write-combined memory. The origin is added here: in
+/// the sums it would take registers that the accumulators need.
 static inline void store_stream(const vectors *src, const float *origin, size_t row_count,
                                 size_t stride, unsigned char *dst) {
     size_t row = 0;

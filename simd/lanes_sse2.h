@@ -7,7 +7,8 @@
 typedef __m128 lanes;
 
 #define LANES_WIDTH 4
-/// 9 accumulators, 3 splats, a column and a product; with 12, one more than the 16 registers are needed.
+/// 9 accumulators, 3 splats, a column and a product; with 12, one more than the 16 registers are
+/// needed.
 #define LANES_TILE 3
 
 static inline lanes lanes_zero(void) {

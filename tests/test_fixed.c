@@ -99,8 +99,8 @@ static void test_boundary_masks(void) {
     CHECK_EQUAL(limni_loop_rule(&rounded, true, 2), LIMNI_VERTEX_SMOOTH);
 }
 
-/// A tangent mask that is a left eigenvector of the subdivision matrix gives the same direction at every
-/// level: applied after one step, it is the mask before it times the eigenvalue.
+/// A tangent mask that is a left eigenvector of the subdivision matrix gives the same direction at
+/// every level: applied after one step, it is the mask before it times the eigenvalue.
 static void check_is_eigenvector(const limni_rules *rules, const limni_star *star,
                                  const limni_fixed *mask) {
     static limni_fixed vertex[600];

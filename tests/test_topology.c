@@ -645,7 +645,8 @@ static void test_triangulation_notes(void) {
 
 // ---- The baker's own check
 
-/// Patches that do not agree on an edge must not be written. They always agree; so one is made not to.
+/// Patches that do not agree on an edge must not be written. They always agree; so one is made not
+/// to.
 static void test_disagreement(void) {
     uint32_t faces[][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {3, 2, 1}};
     float corners[][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

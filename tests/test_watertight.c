@@ -171,8 +171,8 @@ static void write_vertices(FILE *file, uint32_t count, double height) {
     fprintf(file, "v 900.1 -299.8 %.6f\nv 899.9 -300.2 -1.25\n", height);
 }
 
-/// What the files may not have: wide classes and compensated sums beside plain ones, a fan of boundary
-/// vertices, and a place far from 0.
+/// What the files may not have: wide classes and compensated sums beside plain ones, a fan of
+/// boundary vertices, and a place far from 0.
 static void test_generated(uint32_t valence, bool closed) {
     static const char path[] = "test_watertight_generated.obj";
     FILE *const file = fopen(path, "w");

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Plain recursive Loop subdivision, as one would write it: index tables for every level are made
- * beforehand; a frame is the arithmetic, level by level, and the projection to the limit at the end.
- * Vertices are four floats, one vector each, since what costs time is fetching neighbours; almost
- * all vertices are regular and have tables and masks of their own.
+ * beforehand; a frame is the arithmetic, level by level, and the projection to the limit at the
+ * end. Vertices are four floats, one vector each, since what costs time is fetching neighbours;
+ * almost all vertices are regular and have tables and masks of their own.
  */
 #include "peer.h"
 

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * OpenSubdiv's limit stencils, evaluated by Osd::CpuEvaluator. Control points are there in the layout
- * that is asked for, so no frame converts any.
+ * OpenSubdiv's limit stencils, evaluated by Osd::CpuEvaluator. Control points are there in the
+ * layout that is asked for, so no frame converts any.
  *
  * CpuEvaluator has vector code for positions of four floats only. Three such passes, over the
  * weights of the position and of each derivative, a block of stencils at a time, are at least as
- * fast as its own function for all three, so that is what the derivatives in xyzw do. With a `start`
- * other than 0 it writes to the wrong place: parts of a table are passed as tables of their own.
+ * fast as its own function for all three, so that is what the derivatives in xyzw do. With a
+ * `start` other than 0 it writes to the wrong place: parts of a table are passed as tables of their
+ * own.
  */
 #include "allocate.h"
 #include "peer.h"
@@ -41,8 +42,8 @@ constexpr int REFINEMENT_LEVEL = 6;
 /// The largest count of a table's weights that int can hold, by the largest stencils seen.
 constexpr uint32_t FACE_COUNT_MAX = 500000;
 
-/// Whose indices stay in the first caches from pass to pass. 64 to 512 are alike; with 4096 and more
-/// the three passes lose to OpenSubdiv's own function.
+/// Whose indices stay in the first caches from pass to pass. 64 to 512 are alike; with 4096 and
+/// more the three passes lose to OpenSubdiv's own function.
 constexpr int BLOCK_STENCILS = 512;
 
 /// A table and what its parts need.

@@ -58,12 +58,12 @@ typedef struct peer_scene {
 bool scene_create(peer_scene *scene, const char *path, uint32_t level, uint32_t thread_count);
 void scene_destroy(peer_scene *scene);
 
-/// The row of a face that is row `row` of its patch, of which corner c is corner c + rotation of the
-/// face.
+/// The row of a face that is row `row` of its patch, of which corner c is corner c + rotation of
+/// the face.
 uint32_t scene_face_row(const peer_scene *scene, uint32_t row, uint32_t rotation);
 
-/// Makes all bones equal, a rotation and a shift, so that skinning any points with any weights moves
-/// them rigidly; or all different.
+/// Makes all bones equal, a rotation and a shift, so that skinning any points with any weights
+/// moves them rigidly; or all different.
 void scene_set_bones(peer_scene *scene, bool equal);
 
 /// Numbers in [0, 1), the same in every run.

@@ -86,9 +86,8 @@ typedef struct limn_bake_mesh {
 
 typedef struct limn_baker limn_baker;
 
-/// A baker for one file. NULL desc: defaults. Returns NULL only when out of memory; limn_baker_error()
-/// and limn_baker_destroy() take NULL. Any thread; one
-/// thread at a time.
+/// A baker for one file. NULL desc: defaults. Returns NULL only when out of memory;
+/// limn_baker_error() and limn_baker_destroy() take NULL. Any thread; one thread at a time.
 limn_baker *limn_baker_create(const limn_bake_desc *desc);
 void limn_baker_destroy(limn_baker *baker);
 
@@ -99,8 +98,8 @@ limn_bake_status limn_baker_add_file(limn_baker *baker, const char *path);
 /// Adds a mesh from memory, copying it. Errors name faces and vertices by index from 0.
 limn_bake_status limn_baker_add_mesh(limn_baker *baker, const limn_bake_mesh *mesh);
 
-/// Bakes all meshes into one blob that belongs to the baker, 64-byte aligned. It is valid until a mesh
-/// is added or the baker destroyed.
+/// Bakes all meshes into one blob that belongs to the baker, 64-byte aligned. It is valid until a
+/// mesh is added or the baker destroyed.
 limn_bake_status limn_baker_finish(limn_baker *baker, const void **blob, size_t *blob_size);
 
 /// The same, into a file: written aside and renamed, so that `path` holds either the old file or

@@ -103,7 +103,8 @@ typedef struct limn_file_class {
 } limn_file_class;
 
 /// How the limit normal of a control point follows from the control points around it: two tangents,
-/// each a weighted sum of the point itself and of its ring. Files with normals have one per control point.
+/// each a weighted sum of the point itself and of its ring. Files with normals have one per control
+/// point.
 typedef struct limn_file_normal {
     uint32_t first_ring;   ///< into the ring chunk: `ring_count` control points
     uint32_t ring_count;   ///< 0: the control point is used by no face

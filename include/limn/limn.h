@@ -194,8 +194,8 @@ typedef struct limn_mesh {
 } limn_mesh;
 
 /// Opens a .limn file in memory and validates all of it, so that nothing needs to be checked later.
-/// Safe on untrusted bytes, as long as they do not change while the view is used. Does not allocate;
-/// takes time linear in blob_size; any thread.
+/// Safe on untrusted bytes, as long as they do not change while the view is used. Does not
+/// allocate; takes time linear in blob_size; any thread.
 ///
 /// pack       out: the view; untouched unless the result is LIMN_OK
 /// blob       [blob_size] bytes, starting on a multiple of 64; must outlive the view
@@ -215,8 +215,8 @@ typedef struct limn_patch_face {
 /// The base face of patch `patch_index` < mesh->patch_count. Never fails; any thread.
 limn_patch_face limn_mesh_face(const limn_mesh *mesh, uint32_t patch_index);
 
-/// The control points at the corners of patch `patch_index` < mesh->patch_count, in the order of the
-/// patch's corners, rows 0, 1, …: where each of them has its limit. Never fails; any thread.
+/// The control points at the corners of patch `patch_index` < mesh->patch_count, in the order of
+/// the patch's corners, rows 0, 1, …: where each of them has its limit. Never fails; any thread.
 ///
 /// corners  out: [domain->corner_count], the rest is left alone
 void limn_mesh_corners(const limn_mesh *mesh, uint32_t patch_index,
@@ -257,19 +257,21 @@ typedef struct limn_output {
 } limn_output;
 
 /// Limit normals of all control points: unit vectors, towards the side from which faces are
-/// counter-clockwise. Where the surface has no tangent plane, and at control points that no face uses, the
-/// normal is (0, 0, 1). Does not allocate, never fails; any thread. The mesh must have normals.
+/// counter-clockwise. Where the surface has no tangent plane, and at control points that no face
+/// uses, the normal is (0, 0, 1). Does not allocate, never fails; any thread. The mesh must have
+/// normals.
 ///
 /// controls  [mesh->control_count][3] floats, model units
 /// normals   out: [mesh->control_count][3] floats; must not overlap the controls
 void limn_mesh_control_normals(const limn_mesh *mesh, const float *controls, float *normals);
 
 /// Evaluates patches [begin, end) of a plan and writes their positions, three floats at the start
-/// of each vertex, and if asked to, unit normals of the limit surface, three floats each. Does not allocate, never fails; any number of threads may evaluate disjoint
-/// ranges of one plan into one output. Bytes of a vertex behind its position are left alone. The
-/// same input gives the same bits with every reproducible kernel, and shared vertices of neighbouring
-/// patches get the same bits with any. Both hold if all threads round to nearest and treat denormals
-/// alike, and where control points are finite.
+/// of each vertex, and if asked to, unit normals of the limit surface, three floats each. Does not
+/// allocate, never fails; any number of threads may evaluate disjoint ranges of one plan into one
+/// output. Bytes of a vertex behind its position are left alone. The same input gives the same bits
+/// with every reproducible kernel, and shared vertices of neighbouring patches get the same bits
+/// with any. Both hold if all threads round to nearest and treat denormals alike, and where control
+/// points are finite.
 ///
 /// controls    [mesh->control_count][3] floats, model units, tightly packed; must not overlap the
 ///             output

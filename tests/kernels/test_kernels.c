@@ -167,8 +167,8 @@ static const limn_kernels *scalar_kernels(void) {
     return limn_kernels_select(LIMN_ISA_SCALAR, LIMN_FAMILY_REPRODUCIBLE);
 }
 
-/// The reproducible kernels give the bits of the scalar ones; the fast ones must at least write where
-/// they should.
+/// The reproducible kernels give the bits of the scalar ones; the fast ones must at least write
+/// where they should.
 static void test_ranges(made *m, const limn_kernels *kernels) {
     static const uint32_t strides[] = {12, 16, STRIDE_MAX};
     const uint32_t patch_count = m->mesh.patch_count;
@@ -184,8 +184,8 @@ static void test_ranges(made *m, const limn_kernels *kernels) {
     }
 }
 
-/// Every level is a prefix of the finest, by bits, whatever the stride: which ways to sum and to store
-/// a kernel takes must not show.
+/// Every level is a prefix of the finest, by bits, whatever the stride: which ways to sum and to
+/// store a kernel takes must not show.
 static void test_prefix(made *m, const limn_kernels *kernels) {
     evaluate(m, kernels, LIMN_LEVEL_MAX, 12, 0, m->mesh.patch_count, expected);
     for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
@@ -263,8 +263,8 @@ static void test_precision(made *m, const limn_kernels *kernels) {
     }
 }
 
-/// The bits of a whole evaluation at every level: the same from all reproducible kernels, whatever the
-/// compiler and its flags. If this changes, results change for everybody.
+/// The bits of a whole evaluation at every level: the same from all reproducible kernels, whatever
+/// the compiler and its flags. If this changes, results change for everybody.
 static void test_golden(made *m, const limn_kernels *kernels) {
     static const uint64_t golden[LIMN_LEVEL_COUNT] = {0xb4f9a3bed2503751u, 0x9989404106379bb6u,
                                                       0x62a3a01d8336f8f2u, 0x26878e699788b882u,
@@ -280,7 +280,8 @@ static void test_golden(made *m, const limn_kernels *kernels) {
     }
 }
 
-/// Normals in a stream of their own are those inside the vertices; corners have the control points'.
+/// Normals in a stream of their own are those inside the vertices; corners have the control
+/// points'.
 static void test_normal_stream(made *m, const limn_kernels *kernels) {
     static float normals[CLASSES * PATCHES * 153][3];
     for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
