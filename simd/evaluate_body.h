@@ -128,7 +128,8 @@ static inline void gather(const uint32_t *indices, size_t count, const limni_poi
 }
 
 /// Unit normals from two tangents. Along a shared edge the neighbour has both tangents negated, bit
-/// for bit, so that products, and all that follows, are the same; adding +0 makes zeros alike.
+/// for bit, so that products, and all that follows, are the same but for the signs of zeros, which
+/// store_vertices() makes alike.
 static inline void find_normals(const vectors *along, const vectors *across, size_t row_count,
                                 vectors *out) {
     const lanes zero = lanes_zero(), one = lanes_splat(1.0f), least = lanes_splat(FLT_MIN);
@@ -142,9 +143,9 @@ static inline void find_normals(const vectors *along, const vectors *across, siz
         const lanes square =
             lanes_add(lanes_add(lanes_multiply(x, x), lanes_multiply(y, y)), lanes_multiply(z, z));
         const lanes scale = lanes_divide(one, lanes_square_root(square));
-        const lanes nx = lanes_add(lanes_multiply(x, scale), zero);
-        const lanes ny = lanes_add(lanes_multiply(y, scale), zero);
-        const lanes nz = lanes_add(lanes_multiply(z, scale), zero);
+        const lanes nx = lanes_multiply(x, scale);
+        const lanes ny = lanes_multiply(y, scale);
+        const lanes nz = lanes_multiply(z, scale);
         lanes_store(&out->axes[0][row], lanes_select_greater(square, least, nx, zero));
         lanes_store(&out->axes[1][row], lanes_select_greater(square, least, ny, zero));
         lanes_store(&out->axes[2][row], lanes_select_greater(square, least, nz, one));
@@ -186,7 +187,7 @@ static inline void store_stream(const vectors *src, const float *origin, size_t 
 static inline void store_vertices(const vectors *positions, const vectors *normals,
                                   const float *origin, const limni_target *target,
                                   size_t patch_index) {
-    static const float nowhere[3] = {0};
+    static const float nowhere[3] = {0}; // adding +0 turns -0 into +0
     const size_t row_count = target->row_count, first = patch_index * row_count;
     unsigned char *const dst = target->vertices + first * target->stride;
     unsigned char *const normal_dst =

@@ -190,6 +190,26 @@ static void test_generated(uint32_t valence, bool closed) {
     remove(path);
 }
 
+/// A flat mesh has normals with zeros, whose signs must agree too.
+static void test_flat(void) {
+    static const char path[] = "test_watertight_flat.obj";
+    FILE *const file = fopen(path, "w");
+    if (!CHECK(file)) return;
+    for (int y = 0; y < 7; y++) {
+        for (int x = 0; x < 7; x++)
+            fprintf(file, "v %.3f %.3f 0\n", x - 3 + 0.1 * (y % 3), y - 3 + 0.07 * (x % 4));
+    }
+    for (int corner = 1; corner < 42; corner++) {
+        if (corner % 7 == 0) continue;
+        fprintf(file, "f %d %d %d\nf %d %d %d\n", corner, corner + 1, corner + 8, corner,
+                corner + 8, corner + 7);
+    }
+    const int closed_file = fclose(file);
+    CHECK(closed_file == 0);
+    visit(path);
+    remove(path);
+}
+
 static void test_warren(const char *path) {
     subject s;
     if (CHECK(load(&s, path, 0, LIMN_WEIGHTS_WARREN))) {
@@ -244,6 +264,7 @@ int main(void) {
     CHECK(mesh_files_visit(visit) > 0);
     printf("%llu meshes (%llu of them repaired), %llu shared vertices compared\n", total_meshes,
            refused_meshes, total_vertices);
+    test_flat();
     static const uint32_t valences[] = {3, 7, 20, 26, 64, 255, 300, 500};
     for (int v = 0; v < 8; v++) {
         test_generated(valences[v], true);
