@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Limn itself, from control points and from bones. When it writes more than positions, this file is
- * the place to say so: see `outputs` and set_output(). */
+/* Limn itself, from control points and from bones: with every kernel, each of `outputs`. */
 #include "peer.h"
 
 #include "../bench.h"
