@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "classes.h"
 
+#include "../runtime/domain.h"
 #include "hash.h"
 #include "limn/limn.h"
+#include "mirror.h"
 
 #include <string.h>
 
@@ -43,6 +45,7 @@ static uint32_t *find_table(const limni_classes *classes, const limni_class *cla
     for (; table->indices[at] != LIMNI_NONE; at = (at + 1) & (table->size - 1)) {
         const limni_class *const other = &classes->items[table->indices[at]];
         if (other->control_count == class->control_count &&
+            other->pair_count == class->pair_count &&
             memcmp(other->table, class->table, limni_class_table_size(class)) == 0)
             break;
     }
@@ -79,6 +82,19 @@ static limn_bake_status grow(limni_context *context, limni_classes *classes) {
 
 // ---- Tables
 
+enum { ROW_COUNT = 153 };
+
+/// What a class is made from.
+typedef struct class_maker {
+    limni_coefficients coefficients;
+    limni_fixed *rows;      ///< the same
+    bool *used;             ///< [slot_count] whether it has a column
+    uint16_t *images;       ///< [slot_count] mirror images, if there are pairs
+    uint32_t pair_count;    ///< of columns
+    uint32_t control_count; ///< columns
+    const limni_layout *layout;
+} class_maker;
+
 /// Adds one column along one edge to a hash. Read against the edge, `negated` turns the signs.
 static uint64_t print_column(uint64_t hash, const float *column, const uint16_t *edge_rows,
                              bool along, bool negated, bool *any) {
@@ -93,71 +109,145 @@ static uint64_t print_column(uint64_t hash, const float *column, const uint16_t 
     return hash;
 }
 
+/// The columns of one slot, a row each, for all tables.
+typedef float slot_columns[3][ROW_COUNT];
+
 /// The columns of a slot along one edge. The neighbour has the positions in the opposite order, and
 /// the tangents with the opposite sign as well.
-static uint64_t print_edge(const limni_class *class, uint32_t slot, uint32_t edge, bool along) {
+static uint64_t print_edge(float (*columns)[ROW_COUNT], uint32_t table_count, uint32_t edge,
+                           bool along) {
     const limn_domain *const domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE);
     uint64_t hash = 0;
     bool any = false;
-    for (uint32_t table = 0; table < class->table_count; table++) {
-        const size_t column = ((size_t)table * class->control_count + slot) * LIMNI_TABLE_STRIDE;
-        hash = print_column(hash, class->table + column, domain->edge_rows[edge], along,
+    for (uint32_t table = 0; table < table_count; table++)
+        hash = print_column(hash, columns[table], domain->edge_rows[edge], along,
                             table > 0 && !along, &any);
-    }
     return any ? hash : 0;
 }
 
-/// Numbers the columns that are not zero everywhere, in the order of the slots. Returns how many.
-static uint32_t number_columns(const limni_fixed *rows, size_t row_count, uint32_t slot_count,
-                               uint16_t *slots) {
-    uint32_t count = 0;
-    for (uint32_t slot = 0; slot < slot_count; slot++) {
-        bool used = false;
-        for (size_t row = 0; row < row_count && !used; row++)
-            used = rows[row * slot_count + slot] != 0;
-        slots[slot] = used ? (uint16_t)count++ : (uint16_t)LIMNI_SLOT_UNUSED;
+/// Finds the columns that are not zero everywhere.
+static void find_used(const limni_coefficients *c, bool *used) {
+    for (uint32_t slot = 0; slot < c->slot_count; slot++) {
+        used[slot] = false;
+        for (uint32_t row = 0; row < c->table_count * c->row_count && !used[slot]; row++)
+            used[slot] = c->rows[(size_t)row * c->slot_count + slot] != 0;
     }
-    return count;
 }
 
-/// Rounds the coefficients to floats, and remembers the columns along each edge.
-static void fill_tables(const limni_fixed *rows, uint32_t slot_count, const uint16_t *slots,
-                        limni_class *class) {
-    const limn_domain *const domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE);
-    const size_t row_count = domain->row_counts[LIMN_LEVEL_MAX];
-    for (uint32_t slot = 0; slot < slot_count; slot++) {
-        const uint32_t own = slots[slot];
-        if (own == LIMNI_SLOT_UNUSED) continue;
-        for (size_t table = 0; table < class->table_count; table++) {
-            float *const column =
-                class->table + (table * class->control_count + own) * LIMNI_TABLE_STRIDE;
-            for (size_t row = 0; row < row_count; row++)
-                column[row] =
-                    limni_fixed_to_float(rows[(table * row_count + row) * slot_count + slot]);
-        }
-        for (uint32_t edge = 0; edge < domain->corner_count; edge++) {
-            class->prints[own].along[edge] = print_edge(class, own, edge, true);
-            class->prints[own].against[edge] = print_edge(class, own, edge, false);
+/// Numbers the columns in the order of the slots; where there is a mirror line, after slot 0 first
+/// the pairs.
+static void number_columns(class_maker *maker, uint16_t *columns) {
+    const uint32_t slot_count = maker->coefficients.slot_count;
+    uint16_t count = 0;
+    for (uint32_t slot = 0; slot < slot_count; slot++)
+        columns[slot] = LIMNI_SLOT_UNUSED;
+    columns[0] = count++;
+    for (uint32_t slot = 0; slot < slot_count && maker->pair_count; slot++) {
+        if (!maker->used[slot] || maker->images[slot] <= slot) continue;
+        columns[slot] = count++;
+        columns[maker->images[slot]] = count++;
+    }
+    for (uint32_t slot = 1; slot < slot_count; slot++) {
+        if (maker->used[slot] && columns[slot] == LIMNI_SLOT_UNUSED) columns[slot] = count++;
+    }
+    maker->control_count = count;
+}
+
+static bool is_paired(const limni_layout *layout, uint32_t row) {
+    for (uint32_t b = 0; b < layout->pair_counts[LIMN_LEVEL_MAX] / LIMN_FORMAT_ROW_BLOCK; b++) {
+        if (row - layout->pair_rows[b] < LIMN_FORMAT_ROW_BLOCK ||
+            row - layout->mirror_rows[b] < LIMN_FORMAT_ROW_BLOCK)
+            return true;
+    }
+    return false;
+}
+
+/// The rows that the layout has one by one. What pads a segment stays zero.
+static void fill_singles(const limni_layout *layout, const float rows[ROW_COUNT], float *column) {
+    for (int s = 0; s < LIMNI_SEGMENT_MAX; s++) {
+        const limni_segment *const segment = &layout->segments[LIMN_LEVEL_MAX][s];
+        for (uint32_t r = 0; r < segment->count && segment->row + r < ROW_COUNT; r++) {
+            if (!is_paired(layout, segment->row + r))
+                column[segment->table_row + r] = rows[segment->row + r];
         }
     }
+}
+
+/// Half the sum of the coefficients of a pair of slots goes to the first, half the difference to the
+/// second.
+static void fill_pairs(const class_maker *maker, uint32_t table, uint32_t slot, float *column) {
+    const limni_layout *const layout = maker->layout;
+    const uint32_t image = maker->images[slot];
+    for (uint32_t pair = 0; pair < layout->pair_counts[LIMN_LEVEL_MAX]; pair++) {
+        const uint32_t row = layout->pair_rows[pair / LIMN_FORMAT_ROW_BLOCK] + pair % 8;
+        const limni_fixed own = limni_coefficient(&maker->coefficients, table, row, slot);
+        const limni_fixed other = limni_coefficient(&maker->coefficients, table, row, image);
+        float value = limni_fixed_to_float(own);
+        if (image > slot) value = limni_fixed_to_float(own + other) / 2;
+        if (image < slot) value = limni_fixed_to_float(other - own) / 2;
+        column[layout->pair_table_row + pair] = value;
+    }
+}
+
+/// Rounds the coefficients of one slot to floats, and remembers the columns along each edge.
+static void fill_slot(const class_maker *maker, uint32_t slot, uint32_t column_index,
+                      limni_class *class) {
+    slot_columns rows;
+    for (uint32_t table = 0; table < class->table_count; table++) {
+        float *const column = class->table + ((size_t)table * class->control_count + column_index) *
+                                                 class->row_stride;
+        for (uint32_t row = 0; row < ROW_COUNT; row++)
+            rows[table][row] =
+                limni_fixed_to_float(limni_coefficient(&maker->coefficients, table, row, slot));
+        fill_singles(maker->layout, rows[table], column);
+        if (maker->pair_count) fill_pairs(maker, table, slot, column);
+    }
+    for (uint32_t edge = 0; edge < 3; edge++) {
+        limni_edge_prints *const prints = &class->prints[column_index];
+        prints->along[edge] = print_edge(rows, class->table_count, edge, true);
+        prints->against[edge] = print_edge(rows, class->table_count, edge, false);
+    }
+}
+
+static limn_bake_status begin_class(limni_context *context, const limni_rules *rules,
+                                    const limni_neighbourhood *neighbourhood, class_maker *maker) {
+    const uint32_t slot_count = neighbourhood->control_count;
+    const uint32_t table_count = rules->normals == LIMN_NORMALS_EXACT ? 3 : 1;
+    limni_fixed *const rows =
+        limni_allocate(context, (size_t)table_count * ROW_COUNT * slot_count, sizeof *rows);
+    *maker = (class_maker){.coefficients = {.rows = rows,
+                                            .table_count = table_count,
+                                            .row_count = ROW_COUNT,
+                                            .slot_count = slot_count},
+                           .rows = rows,
+                           .used = limni_allocate(context, slot_count, sizeof *maker->used),
+                           .images = limni_allocate(context, slot_count, sizeof *maker->images)};
+    if (!rows || !maker->used || !maker->images) return LIMN_BAKE_MEMORY;
+    limni_fixed *const tangents = table_count == 3 ? rows + (size_t)ROW_COUNT * slot_count : NULL;
+    return limni_subdivide(context, rules, neighbourhood, LIMN_LEVEL_MAX, LIMNI_PROJECT_TO_LIMIT,
+                           rows, tangents);
+}
+
+static void end_class(limni_context *context, class_maker *maker) {
+    limni_release(context, maker->rows);
+    limni_release(context, maker->used);
+    limni_release(context, maker->images);
 }
 
 /// Computes the tables of a local base, and which slot has which column.
 static limn_bake_status make_class(limni_context *context, const limni_rules *rules,
-                                   const limni_neighbourhood *neighbourhood, uint16_t *slots,
+                                   const limni_neighbourhood *neighbourhood, uint16_t *columns,
                                    limni_class *class) {
-    const size_t row_count = limn_domain_get(LIMN_DOMAIN_TRIANGLE)->row_counts[LIMN_LEVEL_MAX];
-    const uint32_t slot_count = neighbourhood->control_count;
-    const uint32_t table_count = rules->normals == LIMN_NORMALS_EXACT ? 3 : 1;
-    limni_fixed *const rows =
-        limni_allocate(context, table_count * row_count * slot_count, sizeof *rows);
-    if (!rows) return LIMN_BAKE_MEMORY;
-    limni_fixed *const tangents = table_count == 3 ? rows + row_count * slot_count : NULL;
-    LIMNI_TRY(limni_subdivide(context, rules, neighbourhood, LIMN_LEVEL_MAX, LIMNI_PROJECT_TO_LIMIT,
-                              rows, tangents));
-    *class = (limni_class){.control_count =
-                               number_columns(rows, table_count * row_count, slot_count, slots),
-                           .table_count = table_count};
+    class_maker maker;
+    LIMNI_TRY(begin_class(context, rules, neighbourhood, &maker));
+    find_used(&maker.coefficients, maker.used);
+    maker.pair_count = limni_find_mirror(&maker.coefficients, maker.used, maker.images);
+    maker.layout = limni_layout_get(LIMN_DOMAIN_TRIANGLE, maker.pair_count);
+    number_columns(&maker, columns);
+    *class = (limni_class){.control_count = maker.control_count,
+                           .pair_count = maker.pair_count,
+                           .table_count = maker.coefficients.table_count,
+                           .row_stride = maker.layout->row_stride};
     class->table = limni_allocate_zeroed(context, limni_class_table_size(class), 1);
     class->prints = limni_allocate(context, class->control_count, sizeof *class->prints);
     if (!class->table || !class->prints) return LIMN_BAKE_MEMORY;
@@ -165,8 +255,10 @@ static limn_bake_status make_class(limni_context *context, const limni_rules *ru
         class->valences[corner] = neighbourhood->corners[corner].count;
         class->boundary_corners |= (uint32_t)!neighbourhood->corners[corner].closed << corner;
     }
-    fill_tables(rows, slot_count, slots, class);
-    limni_release(context, rows);
+    for (uint32_t slot = 0; slot < neighbourhood->control_count; slot++) {
+        if (columns[slot] != LIMNI_SLOT_UNUSED) fill_slot(&maker, slot, columns[slot], class);
+    }
+    end_class(context, &maker);
     return LIMN_BAKE_OK;
 }
 

@@ -12,7 +12,6 @@
 #include "classify.h"
 
 enum {
-    LIMNI_TABLE_STRIDE = 160,   ///< rows of a table column, padded
     LIMNI_SLOT_UNUSED = 0xffff, ///< of a control point without a column
 };
 
@@ -28,14 +27,16 @@ typedef struct limni_class {
     uint32_t control_count;
     uint32_t valences[3];      ///< of the first key that has this table
     uint32_t boundary_corners; ///< bit c
+    uint32_t pair_count;       ///< of columns, if the class is its own mirror image
     uint32_t table_count;      ///< 1, or 3 with the tangents
-    float *table;              ///< [table_count][control_count][LIMNI_TABLE_STRIDE]
+    uint32_t row_stride;       ///< rows of a column in the file
+    float *table;              ///< [table_count][control_count][row_stride]
     limni_edge_prints *prints; ///< [control_count]
 } limni_class;
 
 /// Bytes of the tables of a class.
 static inline size_t limni_class_table_size(const limni_class *class) {
-    return (size_t) class->table_count * class->control_count * LIMNI_TABLE_STRIDE * sizeof(float);
+    return (size_t) class->table_count * class->control_count * class->row_stride * sizeof(float);
 }
 
 /// A topology, and the table that it uses.

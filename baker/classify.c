@@ -116,9 +116,15 @@ static int compare_keys(const limni_local_base *a, const limni_local_base *b) {
     return 0;
 }
 
-/// Whether some other rotation begins with smaller valences, so that this one cannot be canonical.
+/// Whether the valences alone say that this rotation is not the canonical one.
 static bool is_ruled_out(const limni_mesh *mesh, uint32_t face, uint32_t rotation) {
     const uint32_t *const corners = mesh->faces[face];
+    const uint32_t first = mesh->valences[corners[rotation]];
+    const uint32_t second = mesh->valences[corners[(rotation + 1) % 3]];
+    const uint32_t third = mesh->valences[corners[(rotation + 2) % 3]];
+    if (first == second || first == third || second == third)
+        return second !=
+               third; // all three are equal, or a mirror line would go through the odd one
     for (uint32_t other = 0; other < 3; other++) {
         for (uint32_t c = 0; c < 3; c++) {
             const uint32_t own = mesh->valences[corners[(c + rotation) % 3]];

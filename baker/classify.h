@@ -5,7 +5,9 @@
  * The key of a face is its whole 1-neighbourhood in canonical form: valences and boundary status of
  * the corners, then the rings as slots. Slots are given in the order of a walk around the corners,
  * so a control point that occurs in two rings, as on small meshes, shows in the key. Canonical
- * rotation is Brickhill's: lowest valence first, ties by the second, then by the rest of the key.
+ * rotation: where two valences are equal, the third comes first, so that a mirror line, if there is
+ * one, goes through the first corner; otherwise Brickhill's, lowest valence first. Ties are decided
+ * by the rest of the key.
  */
 #ifndef LIMNI_CLASSIFY_H
 #define LIMNI_CLASSIFY_H

@@ -23,9 +23,7 @@ static const char help[] =
     "A class is one topology of a face's surroundings; its use_count is in faces.\n";
 
 static uint64_t table_size(const limn_file_class *class) {
-    const limn_domain *const domain = limn_domain_get((limn_domain_kind) class->domain);
-    return (uint64_t) class->table_count * class->control_count *
-           domain->padded_row_counts[class->depth] * sizeof(float);
+    return limn_file_table_size(class) * sizeof(float);
 }
 
 /// Bytes of the patches of a mesh: all that grows with its faces.

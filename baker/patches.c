@@ -117,8 +117,8 @@ static void sort_pairs(uint64_t *pairs, uint32_t count) {
     }
 }
 
-/// Stores a patch's control points in ascending order, each with its slot: what makes two patches
-/// add the terms of a shared vertex in the same order.
+/// Stores a patch's control points by slot, and the slots in ascending order of the control points:
+/// what makes two patches add the terms of a shared vertex in the same order.
 static void store_controls(const limni_local_base *base, const limni_class_key *key,
                            uint64_t *pairs, uint32_t slot_size, uint32_t *indices, uint8_t *slots) {
     uint32_t count = 0;
@@ -128,7 +128,7 @@ static void store_controls(const limni_local_base *base, const limni_class_key *
     }
     sort_pairs(pairs, count);
     for (uint32_t k = 0; k < count; k++) {
-        indices[k] = (uint32_t)(pairs[k] >> 32);
+        indices[(uint32_t)pairs[k]] = (uint32_t)(pairs[k] >> 32);
         // Little-endian, whatever the host.
         slots[k * slot_size] = (uint8_t)(pairs[k] & 0xff);
         if (slot_size == 2) slots[2 * k + 1] = (uint8_t)(pairs[k] >> 8 & 0xff);

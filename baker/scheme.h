@@ -41,9 +41,9 @@ void limni_loop_limit_mask(const limni_rules *rules, const limni_star *star, lim
 
 /// Weights of two tangents of the limit surface at a vertex, as above; they sum to 0. Their cross
 /// product points to the side from which the ring is counter-clockwise. In a closed ring `along`
-/// points towards ring vertex `start`, and starting from the opposite vertex of an even ring
-/// negates both exactly; in an open ring `along` follows the boundary.
-void limni_loop_tangent_masks(const limni_star *star, uint32_t start, limni_fixed *along,
+/// points `half_steps` half steps from ring vertex 0 towards ring vertex 1, and starting from the
+/// opposite side of an even ring negates both exactly; in an open ring `along` follows the boundary.
+void limni_loop_tangent_masks(const limni_star *star, uint32_t half_steps, limni_fixed *along,
                               limni_fixed *across);
 
 /// Weights of the new vertex on an edge: of its two ends each, and of the two opposite vertices

@@ -63,11 +63,12 @@ void limni_loop_limit_mask(const limni_rules *rules, const limni_star *star, lim
 
 // ---- Tangents
 
-static void smooth_tangents(const limni_star *star, uint32_t start, limni_fixed *along,
+static void smooth_tangents(const limni_star *star, uint32_t half_steps, limni_fixed *along,
                             limni_fixed *across) {
     along[0] = across[0] = 0;
     for (uint32_t r = 0; r < star->count; r++) {
-        const limni_fixed_unit unit = limni_fixed_turn(r + star->count - start, star->count);
+        const uint32_t turned = 2 * (r + star->count) - half_steps;
+        const limni_fixed_unit unit = limni_fixed_turn(turned, 2 * star->count);
         along[1 + r] = unit.cosine;
         across[1 + r] = unit.sine;
     }
@@ -103,10 +104,10 @@ static void boundary_tangent(const limni_star *star, limni_fixed *across) {
         across[1 + k] = limni_fixed_multiply(z.sine, limni_fixed_turn(k, 2 * (n - 1)).sine);
 }
 
-void limni_loop_tangent_masks(const limni_star *star, uint32_t start, limni_fixed *along,
+void limni_loop_tangent_masks(const limni_star *star, uint32_t half_steps, limni_fixed *along,
                               limni_fixed *across) {
     if (star->rule == LIMNI_VERTEX_SMOOTH) {
-        smooth_tangents(star, start, along, across);
+        smooth_tangents(star, half_steps, along, across);
         return;
     }
     for (uint32_t w = 0; w <= star->count; w++)

@@ -267,20 +267,22 @@ static void project_to_limit(const subdivision *s, const complex *c, limni_fixed
     }
 }
 
-/// Where a closed ring starts for the tangents of a row: on an edge, at the next row along it.
+/// In half steps around a closed ring, where the tangents of a row start: on an edge, at the next row
+/// along it; inside, halfway between the directions of i and j, so that mirrored rows have mirrored
+/// tangents.
 static uint32_t tangent_start(const subdivision *s, const complex *c, uint32_t row, int depth) {
-    static const int directions[3][2] = {{1, 0}, {-1, 1}, {0, -1}};
+    static const int directions[4][2] = {{1, 0}, {-1, 1}, {0, -1}, {1, 0}};
     const limn_row place = s->domain->rows[row];
     const int step = LIMN_GRID_SIZE >> depth;
-    for (uint32_t edge = 0; edge < 3; edge++) {
-        if (!(place.edges >> edge & 1)) continue;
-        const uint32_t next =
-            grid_row(s, place.i + step * directions[edge][0], place.j + step * directions[edge][1]);
-        for (uint32_t r = 0; r < c->stars[row].count; r++) {
-            if (c->stars[row].ring[r] == next) return r;
-        }
-    }
-    return 0;
+    uint32_t edge = 0; // or 3: none
+    while (edge < 3 && !(place.edges >> edge & 1))
+        edge++;
+    const uint32_t next =
+        grid_row(s, place.i + step * directions[edge][0], place.j + step * directions[edge][1]);
+    uint32_t r = 0;
+    while (r + 1 < c->stars[row].count && c->stars[row].ring[r] != next)
+        r++;
+    return 2 * r + (edge == 3);
 }
 
 static void find_tangents(const subdivision *s, const complex *c, int depth,

@@ -65,7 +65,8 @@ static limn_bake_status make_class_records(limni_context *context, const limni_c
         record->control_count = class->control_count;
         record->domain = LIMN_DOMAIN_TRIANGLE;
         record->depth = LIMN_LEVEL_MAX;
-        record->table_count = class->table_count;
+        record->table_count = (uint16_t) class->table_count;
+        record->pair_count = (uint16_t) class->pair_count;
         record->boundary_corners = class->boundary_corners;
         for (int corner = 0; corner < 3; corner++)
             record->valences[corner] = (uint16_t) class->valences[corner];

@@ -9,3 +9,8 @@ const limn_domain *limn_domain_get(limn_domain_kind kind) {
     LIMNI_REQUIRE((unsigned)kind < LIMN_DOMAIN_COUNT, domains[0]);
     return domains[kind];
 }
+
+const limni_layout *limni_layout_get(limn_domain_kind kind, uint32_t pair_count) {
+    (void)kind; // there is but one
+    return pair_count ? &limni_layout_triangle_mirrored : &limni_layout_triangle;
+}

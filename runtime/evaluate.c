@@ -2,26 +2,65 @@
 #include "mesh.h"
 #include "require.h"
 
+static uint32_t position_size(limn_position_format format) {
+    return format == LIMN_POSITION_UNORM16X4 ? 8 : 12;
+}
+
+static uint32_t normal_size(limn_normal_format format) {
+    static const uint8_t sizes[] = {[LIMN_NORMAL_FLOAT3] = 12,
+                                    [LIMN_NORMAL_OCT16X2] = 4,
+                                    [LIMN_NORMAL_OCT8X2] = 2,
+                                    [LIMN_NORMAL_SNORM8X4] = 4};
+    return sizes[format];
+}
+
+/// Whether memory that starts at `start` may hold elements of `size` bytes every `stride` bytes; a
+/// stride of 0 stands for `size`.
+static bool fits(const void *start, uint32_t stride, uint32_t size) {
+    const uint32_t alignment = size % 4 == 0 ? 4 : 2;
+    return (uintptr_t)start % alignment == 0 && stride % alignment == 0 &&
+           (stride == 0 || stride >= size);
+}
+
+static bool is_valid(const limn_mesh *mesh, const limn_output *output) {
+    if ((unsigned)output->position_format > LIMN_POSITION_UNORM16X4) return false;
+    if ((unsigned)output->normal_format > LIMN_NORMAL_SNORM8X4) return false;
+    if (!output->vertices ||
+        !fits(output->vertices, output->stride, position_size(output->position_format)))
+        return false;
+    if (!output->normals) return true;
+    return mesh->normals && output->control_normals &&
+           fits(output->normals, output->normal_stride, normal_size(output->normal_format));
+}
+
+static limni_target make_target(const limn_mesh *mesh, const limn_output *output) {
+    limni_target target = {
+        .stride = output->stride ? output->stride : position_size(output->position_format),
+        .normal_stride =
+            output->normal_stride ? output->normal_stride : normal_size(output->normal_format),
+        .position_format = output->position_format,
+        .normal_format = output->normal_format,
+        .streaming = output->streaming,
+    };
+    for (int axis = 0; axis < 3; axis++) {
+        const float low = output->box ? output->box[axis] : mesh->bounds_min[axis];
+        const float high = output->box ? output->box[3 + axis] : mesh->bounds_max[axis];
+        target.box_min[axis] = low;
+        target.box_scale[axis] = high > low ? 65535.0f / (high - low) : 0.0f;
+    }
+    return target;
+}
+
 void limn_evaluate(const limn_plan *plan, const float *controls, uint32_t begin, uint32_t end,
                    const limn_output *output) {
     LIMNI_REQUIRE(plan && controls && output && begin <= end && end <= plan->patch_count, );
     if (begin == end) return;
-    LIMNI_REQUIRE(output->vertices && (uintptr_t)output->vertices % sizeof(float) == 0, );
-    LIMNI_REQUIRE(output->stride == 0 || output->stride >= 3 * sizeof(float), );
-    LIMNI_REQUIRE(output->stride % sizeof(float) == 0, );
-
-    LIMNI_REQUIRE(!output->normals || (output->control_normals && plan->mesh->normals), );
-    LIMNI_REQUIRE((uintptr_t)output->normals % sizeof(float) == 0, );
-    LIMNI_REQUIRE(output->normal_stride == 0 || output->normal_stride >= 3 * sizeof(float), );
-    LIMNI_REQUIRE(output->normal_stride % sizeof(float) == 0, );
-
     const limn_mesh *const mesh = plan->mesh;
-    limni_target target = {
-        .normal_stride = output->normal_stride ? output->normal_stride : 3 * sizeof(float),
-        .stride = output->stride ? output->stride : 3 * sizeof(float),
-        .row_count = mesh->domain->row_counts[plan->level],
-        .padded_row_count = mesh->domain->padded_row_counts[plan->level],
-    };
+    LIMNI_REQUIRE(is_valid(mesh, output), );
+    limni_target target = make_target(mesh, output);
+    target.level = plan->level;
+    target.row_count = mesh->domain->row_counts[plan->level];
+    target.corner_count = mesh->domain->corner_count;
     const limni_points points = {.controls = controls,
                                  .origin = mesh->origin,
                                  .normals = output->normals ? output->control_normals : NULL};

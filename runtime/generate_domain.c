@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 enum { LEVEL_COUNT = 5, LEVEL_MAX = 4, GRID = 16, ROW_BLOCK = 8, CORNERS = 3, ROW_MAX = 153 };
+enum { PAIRED = 3 }; ///< the first level with pairs of rows
 
 typedef struct point {
     int i, j;
@@ -20,6 +21,8 @@ static point rows[ROW_MAX];
 static int row_levels[ROW_MAX];
 static int row_count;
 static int row_counts[LEVEL_COUNT];
+static int pair_rows[LEVEL_COUNT];   ///< the first new row on one side of the mirror line
+static int mirror_rows[LEVEL_COUNT]; ///< the first on the other
 
 static int row_at(int i, int j) {
     for (int row = 0; row < row_count; row++) {
@@ -51,8 +54,22 @@ static void add_row(point p, int level) {
     rows[row_count++] = p;
 }
 
+/// Rows inside the triangle that a level adds, of one side of the mirror line i = j: -1 for j > i,
+/// 0 on the line, 1 for j < i. By ascending j, then i; beyond the line in the order of their images.
+static void add_interior(int level, int side) {
+    const int step = GRID >> level;
+    for (int j = step; j < GRID; j += step) {
+        for (int i = step; i + j < GRID; i += step) {
+            if (side == 0 && i == j) add_row((point){i, j}, level);
+            if (side == 1 && i > j) add_row((point){i, j}, level);
+            if (side == -1 && i > j) add_row((point){j, i}, level);
+        }
+    }
+}
+
 // Nested order: what level n adds comes after all of level n - 1; edges first, each along its
-// direction, then the interior row by row.
+// direction, then the interior: the rows on the mirror line, those on one side of it, and their
+// images, so that a patch that is its own mirror image can be evaluated by halves.
 static void number_rows(void) {
     for (int level = 0; level < LEVEL_COUNT; level++) {
         const int step = GRID >> level;
@@ -62,10 +79,11 @@ static void number_rows(void) {
             for (int t = step; t < GRID; t += step)
                 add_row(edge_point(edge, t), level);
         }
-        for (int j = 0; j <= GRID; j += step) {
-            for (int i = 0; i + j <= GRID; i += step)
-                add_row((point){i, j}, level);
-        }
+        add_interior(level, 0);
+        pair_rows[level] = row_count;
+        add_interior(level, 1);
+        mirror_rows[level] = row_count;
+        add_interior(level, -1);
         row_counts[level] = row_count;
     }
 }
@@ -83,7 +101,8 @@ static void print_rows(void) {
             a = di && dj ? row_at(p.i + di, p.j - dj) : row_at(p.i - di, p.j - dj);
             b = di && dj ? row_at(p.i - di, p.j + dj) : row_at(p.i + di, p.j + dj);
         }
-        printf("    {%d, %d, %d, %d, {%d, %d}},\n", p.i, p.j, row_levels[row], edges_of(p), a, b);
+        printf("    {%d, %d, %d, %d, {%d, %d}, %d},\n", p.i, p.j, row_levels[row], edges_of(p), a,
+               b, row_at(p.j, p.i));
     }
     printf("};\n\n");
 }
@@ -122,10 +141,57 @@ static int print_indices(int level) {
     return index_total;
 }
 
+static int pad(int count) {
+    return (count + ROW_BLOCK - 1) / ROW_BLOCK * ROW_BLOCK;
+}
+
 static void print_list(const char *name, const int values[LEVEL_COUNT]) {
     printf("    .%s = {", name);
     for (int level = 0; level < LEVEL_COUNT; level++)
         printf("%d%s", values[level], level < LEVEL_MAX ? ", " : "},\n");
+}
+
+static void print_segments(const char *name) {
+    printf("const limni_layout limni_layout_%s = {\n    .segments =\n        {\n", name);
+}
+
+/// Without a mirror line, the rows of a level are one segment.
+static void print_plain_layout(void) {
+    print_segments("triangle");
+    for (int level = 0; level < LEVEL_COUNT; level++)
+        printf("            {{0, 0, %d}},\n", pad(row_counts[level]));
+    printf("        },\n    .row_stride = %d,\n};\n\n", pad(row_counts[LEVEL_MAX]));
+}
+
+static void print_blocks(const char *name, const int first_rows[LEVEL_COUNT]) {
+    printf("    .%s = {", name);
+    for (int level = PAIRED; level < LEVEL_COUNT; level++) {
+        for (int at = 0; at < mirror_rows[level] - pair_rows[level]; at += ROW_BLOCK)
+            printf("%s%d", level == PAIRED && at == 0 ? "" : ", ", first_rows[level] + at);
+    }
+    printf("},\n");
+}
+
+/// With one, rows come in pairs from level 3 on, where the pairs of a level fill whole blocks of 8;
+/// below, nothing would be gained. In a column: the other rows up to level 3; all pairs; the other
+/// rows of level 4.
+static void print_mirrored_layout(void) {
+    int pair_counts[LEVEL_COUNT] = {0};
+    for (int level = PAIRED; level < LEVEL_COUNT; level++)
+        pair_counts[level] = pair_counts[level - 1] + mirror_rows[level] - pair_rows[level];
+    const int first = pad(pair_rows[PAIRED]), last_row = row_counts[LEVEL_MAX - 1];
+    const int last = pad(pair_rows[LEVEL_MAX] - last_row);
+    print_segments("triangle_mirrored");
+    for (int level = 0; level < PAIRED; level++)
+        printf("            {{0, 0, %d}},\n", pad(row_counts[level]));
+    printf("            {{0, 0, %d}},\n", first);
+    printf("            {{0, 0, %d}, {%d, %d, %d}},\n        },\n", first,
+           first + pair_counts[LEVEL_MAX], last_row, last);
+    print_list("pair_counts", pair_counts);
+    printf("    .pair_table_row = %d,\n", first);
+    print_blocks("pair_rows", pair_rows);
+    print_blocks("mirror_rows", mirror_rows);
+    printf("    .row_stride = %d,\n};\n\n", first + pair_counts[LEVEL_MAX] + last);
 }
 
 int main(void) {
@@ -138,8 +204,10 @@ int main(void) {
     print_edges();
     for (int level = 0; level < LEVEL_COUNT; level++) {
         index_counts[level] = print_indices(level);
-        padded[level] = (row_counts[level] + ROW_BLOCK - 1) / ROW_BLOCK * ROW_BLOCK;
+        padded[level] = pad(row_counts[level]);
     }
+    print_plain_layout();
+    print_mirrored_layout();
     printf("const limn_domain limni_domain_triangle = {\n"
            "    .kind = LIMN_DOMAIN_TRIANGLE,\n    .corner_count = %d,\n",
            CORNERS);

@@ -7,6 +7,7 @@
 #ifndef LIMNI_KERNELS_H
 #define LIMNI_KERNELS_H
 
+#include "domain.h"
 #include "limn/format.h"
 #include "limn/limn.h"
 
@@ -29,20 +30,20 @@
 /// A row with more terms than this is summed with compensation. Both patches that share a row see
 /// the same terms, so they agree on how to sum it.
 #define LIMNI_PLAIN_TERMS 24
-LIMN_STATIC_ASSERT(LIMNI_PLAIN_TERMS <= LIMN_FORMAT_NARROW_SLOTS, "plain sums have narrow slots");
+LIMN_STATIC_ASSERT(LIMNI_PLAIN_TERMS == LIMN_FORMAT_PAIRED_MAX, "pairs are summed plainly");
 
 /// Consecutive patches of one class.
 typedef struct limni_run {
     const float *table;      ///< [control_count][row_stride], columns aligned to 32 bytes
-    const uint32_t *indices; ///< [patch_count][control_count], ascending within a patch
-    const void *slots;       ///< the same shape, slot_size bytes each
+    const uint32_t *indices; ///< [patch_count][control_count], by slot
+    const void *slots; ///< the same shape, slot_size bytes each: in ascending order of the indices
+    const limni_layout *layout; ///< of the table
     uint32_t control_count;
-    uint32_t row_stride;
+    uint32_t pair_count; ///< mirrored control points: slots 1 and 2, 3 and 4, …; 0: no symmetry
     size_t
         table_stride;   ///< floats from the positions' table to the tangents', and on to the second
     uint32_t slot_size; ///< 1 or 2
     uint32_t patch_count;
-    uint32_t corner_count; ///< of the domain
 } limni_run;
 
 /// Where control points come from.
@@ -58,15 +59,37 @@ typedef struct limni_target {
     size_t stride;           ///< bytes from vertex to vertex
     unsigned char *normals;  ///< the same for normals; NULL: none are written
     size_t normal_stride;
-    uint32_t row_count; ///< rows that are written
-    uint32_t padded_row_count;
+    limn_position_format position_format;
+    limn_normal_format normal_format;
+    float box_min[3], box_scale[3]; ///< packed positions are (position - min) * scale
+    bool streaming;
+    uint32_t level;
+    uint32_t row_count;    ///< rows that are written
+    uint32_t corner_count; ///< of the domain
 } limni_target;
+
+/// A control point and those around it, with the masks of its two limit tangents.
+typedef struct limni_ring {
+    uint32_t control, count;
+    const uint32_t *controls; ///< [count]
+    const float *weights;     ///< [2][1 + count], the first of the control point itself
+} limni_ring;
+
+static inline limni_ring limni_ring_of(const limn_mesh *mesh, uint32_t control) {
+    const limn_file_normal *const record = &mesh->normals[control];
+    return (limni_ring){.control = control,
+                        .count = record->ring_count,
+                        .controls = mesh->ring + record->first_ring,
+                        .weights = mesh->weights + record->first_weight};
+}
 
 struct limn_kernels {
     const char *name;
     uint32_t isa;
     limn_family family;
     void (*evaluate)(const limni_run *run, const limni_points *points, const limni_target *target);
+    /// See limn_mesh_control_normals().
+    void (*control_normals)(const limn_mesh *mesh, const float *controls, float *normals);
 };
 
 /// Those that are built are listed in kernels.c.

@@ -20,18 +20,18 @@ limni_run limni_run_part(const limn_mesh *mesh, const limn_file_run *run, uint32
                          uint32_t end) {
     const limn_file_class *const class = &mesh->classes[run->class_index];
     const uint32_t slot_size = limn_file_slot_size(class);
+    const limni_layout *const layout = limni_layout_get(mesh->domain->kind, class->pair_count);
     const size_t skipped = (size_t)begin * class->control_count;
     return (limni_run){
         .table = mesh->tables + class->table_offset / sizeof(float),
         .indices = mesh->indices + run->first_index + skipped,
         .slots = mesh->slots + run->first_slot + skipped * slot_size,
         .control_count = class->control_count,
-        .row_stride = mesh->domain->padded_row_counts[class->depth],
-        .table_stride =
-            (size_t) class->control_count * mesh->domain->padded_row_counts[class->depth],
+        .layout = layout,
+        .table_stride = (size_t) class->control_count * layout->row_stride,
+        .pair_count = class->pair_count,
         .slot_size = slot_size,
         .patch_count = end - begin,
-        .corner_count = mesh->domain->corner_count,
     };
 }
 
@@ -47,10 +47,6 @@ void limn_mesh_corners(const limn_mesh *mesh, uint32_t patch_index,
     const limn_file_run *const run = &mesh->runs[limni_find_run(mesh, patch_index)];
     const uint32_t in_run = patch_index - run->first_patch;
     const limni_run patch = limni_run_part(mesh, run, in_run, in_run + 1);
-    const uint8_t *const narrow = patch.slots;
-    const uint16_t *const wide = patch.slots;
-    for (uint32_t k = 0; k < patch.control_count; k++) {
-        const uint32_t slot = patch.slot_size == 1 ? narrow[k] : wide[k];
-        if (slot < mesh->domain->corner_count) corners[slot] = patch.indices[k];
-    }
+    for (uint32_t corner = 0; corner < mesh->domain->corner_count; corner++)
+        corners[corner] = patch.indices[corner];
 }

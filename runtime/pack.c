@@ -177,7 +177,10 @@ static limn_result validate_classes(const limn_pack *pack) {
             return LIMN_ERROR_CLASS;
         const limn_domain *const domain = limn_domain_get((limn_domain_kind) class->domain);
         if (class->control_count < domain->corner_count) return LIMN_ERROR_CLASS;
-        const uint64_t column_size = domain->padded_row_counts[class->depth] * sizeof(float);
+        if (class->pair_count && (class->control_count > LIMN_FORMAT_PAIRED_MAX ||
+                                  2u * class->pair_count >= class->control_count))
+            return LIMN_ERROR_CLASS;
+        const uint64_t column_size = limn_file_row_stride(class) * sizeof(float);
         if (class->table_offset % LIMN_FORMAT_ALIGNMENT != 0 ||
             class->table_offset > tables->size ||
             (class->table_count != 1 && class->table_count != 3) ||
@@ -236,38 +239,36 @@ static limn_result validate_runs(const limn_pack *pack, const limn_mesh *mesh, u
     return LIMN_OK;
 }
 
-static limn_result validate_indices(const limn_mesh *mesh, const limn_file_run *run) {
-    const uint32_t control_count = mesh->classes[run->class_index].control_count;
-    const uint32_t *indices = mesh->indices + run->first_index;
-    for (uint32_t p = 0; p < run->patch_count; p++, indices += control_count) {
-        bool ascending = true;
-        for (uint32_t k = 1; k < control_count; k++)
-            ascending &= indices[k - 1] < indices[k];
-        if (!ascending || indices[control_count - 1] >= mesh->control_count)
-            return LIMN_ERROR_INDEX;
-    }
-    return LIMN_OK;
+static uint32_t slot_at(const uint8_t *slots, uint32_t slot_size, uint32_t k) {
+    return slot_size == 1 ? slots[k] : slots[2 * k] | (uint32_t)slots[2 * k + 1] << 8;
 }
 
-/// Every slot of the class once: limn_mesh_corners() relies on finding the corners.
-static bool is_permutation(const void *slots, uint32_t slot_size, uint32_t count) {
-    uint64_t seen[LIMN_FORMAT_CONTROLS_MAX / 64] = {0};
+/// The slots name the control points of a patch in strictly ascending order. So each is named once,
+/// and there is none but those.
+static limn_result validate_patch(const uint32_t *indices, const uint8_t *slots, uint32_t slot_size,
+                                  uint32_t count, uint32_t control_count) {
+    bool inside = true, ascending = true;
+    uint32_t last = 0;
+    for (uint32_t k = 0; k < count; k++)
+        inside &= slot_at(slots, slot_size, k) < count;
+    if (!inside) return LIMN_ERROR_SLOT;
     for (uint32_t k = 0; k < count; k++) {
-        const uint32_t slot =
-            slot_size == 1 ? ((const uint8_t *)slots)[k] : ((const uint16_t *)slots)[k];
-        if (slot >= count || seen[slot / 64] >> slot % 64 & 1) return false;
-        seen[slot / 64] |= (uint64_t)1 << slot % 64;
+        const uint32_t index = indices[slot_at(slots, slot_size, k)];
+        ascending &= k == 0 || index > last;
+        last = index;
     }
-    return true;
+    return ascending && last < control_count ? LIMN_OK : LIMN_ERROR_INDEX;
 }
 
-static limn_result validate_slots(const limn_mesh *mesh, const limn_file_run *run) {
+static limn_result validate_patches(const limn_mesh *mesh, const limn_file_run *run) {
     const limn_file_class *const class = &mesh->classes[run->class_index];
-    const uint32_t slot_size = limn_file_slot_size(class);
+    const uint32_t count = class->control_count, slot_size = limn_file_slot_size(class);
+    const uint32_t *indices = mesh->indices + run->first_index;
     const uint8_t *slots = mesh->slots + run->first_slot;
     for (uint32_t p = 0; p < run->patch_count; p++) {
-        if (!is_permutation(slots, slot_size, class->control_count)) return LIMN_ERROR_SLOT;
-        slots += (size_t) class->control_count * slot_size;
+        TRY(validate_patch(indices, slots, slot_size, count, mesh->control_count));
+        indices += count;
+        slots += (size_t)count * slot_size;
     }
     return LIMN_OK;
 }
@@ -317,10 +318,8 @@ static limn_result validate_mesh(const limn_pack *pack, uint32_t m) {
         return LIMN_ERROR_CONTROLS;
     TRY(validate_runs(pack, &mesh, record->index_count,
                       find_chunk(pack, m, LIMN_CHUNK_SLOTS)->size));
-    for (uint32_t r = 0; r < mesh.run_count; r++) {
-        TRY(validate_indices(&mesh, &mesh.runs[r]));
-        TRY(validate_slots(&mesh, &mesh.runs[r]));
-    }
+    for (uint32_t r = 0; r < mesh.run_count; r++)
+        TRY(validate_patches(&mesh, &mesh.runs[r]));
     TRY(validate_faces(&mesh));
     return validate_normals(pack, &mesh, m);
 }

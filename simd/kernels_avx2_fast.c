@@ -9,4 +9,5 @@ const limn_kernels limni_kernels_avx2_fast = {
     .isa = LIMN_ISA_AVX2,
     .family = LIMN_FAMILY_FAST,
     .evaluate = evaluate_run,
+    .control_normals = find_control_normals,
 };

@@ -8,4 +8,5 @@ const limn_kernels limni_kernels_neon = {
     .isa = LIMN_ISA_NEON,
     .family = LIMN_FAMILY_REPRODUCIBLE,
     .evaluate = evaluate_run,
+    .control_normals = find_control_normals,
 };

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The triangle domain against its definition. */
 #include "check.h"
+#include "coefficients.h"
 #include "limn/limn.h"
 
 static const limn_domain *domain;
@@ -67,13 +68,42 @@ static void test_edges(void) {
     }
 }
 
+/// Rows of a pair are mirror images, and pairs and single rows together are all rows once.
+static void test_layout(void) {
+    const limni_layout *const layout = limni_layout_get(domain->kind, 1);
+    int seen[160] = {0};
+    for (uint32_t pair = 0; pair < layout->pair_counts[LIMN_LEVEL_MAX]; pair++) {
+        const uint32_t row = layout->pair_rows[pair / 8] + pair % 8;
+        CHECK_EQUAL(domain->rows[row].mirror, layout->mirror_rows[pair / 8] + pair % 8);
+        CHECK(domain->rows[row].edges == 0);
+        CHECK_EQUAL(seen[row]++, 0);
+        CHECK_EQUAL(seen[domain->rows[row].mirror]++, 0);
+    }
+    for (uint32_t row = 0; row < domain->row_counts[LIMN_LEVEL_MAX]; row++) {
+        const column_place place = place_of_row(layout, row);
+        const limn_row r = domain->rows[row], image = domain->rows[r.mirror];
+        CHECK(image.i == r.j && image.j == r.i);
+        CHECK(place.paired == (seen[row] == 1) && place.at < layout->row_stride);
+    }
+    // What a level reads is a prefix of what the next one reads.
+    for (int level = 1; level < LIMN_LEVEL_COUNT; level++)
+        CHECK(layout->pair_counts[level] >= layout->pair_counts[level - 1]);
+    CHECK_EQUAL(layout->row_stride, 112);
+    CHECK_EQUAL(limni_layout_get(domain->kind, 0)->row_stride, 160);
+}
+
 /// The order within a level's new rows is part of the format: edges along their directions, then
-/// the interior row by row.
+/// the interior: the mirror line, one side, the other.
 static void test_order(void) {
     static const uint8_t level_2[9][2] = {{4, 0}, {12, 0}, {12, 4}, {4, 12}, {0, 12},
                                           {0, 4}, {4, 4},  {8, 4},  {4, 8}};
     for (int r = 0; r < 9; r++)
         CHECK_EQUAL(row_at(level_2[r][0], level_2[r][1]), (uint32_t)(6 + r));
+    static const uint8_t level_3[18][2] = {{2, 2},  {6, 6},  {4, 2},  {6, 2}, {8, 2},  {10, 2},
+                                           {12, 2}, {6, 4},  {10, 4}, {8, 6}, {2, 4},  {2, 6},
+                                           {2, 8},  {2, 10}, {2, 12}, {4, 6}, {4, 10}, {6, 8}};
+    for (int r = 0; r < 18; r++)
+        CHECK_EQUAL(row_at(level_3[r][0], level_3[r][1]), (uint32_t)(27 + r));
     CHECK_EQUAL(row_at(8, 0), 3u);
     CHECK_EQUAL(row_at(8, 8), 4u);
     CHECK_EQUAL(row_at(0, 8), 5u);
@@ -114,6 +144,7 @@ int main(void) {
     test_parents();
     test_edges();
     test_order();
+    test_layout();
     test_indices();
     return check_report();
 }

@@ -151,8 +151,8 @@ static void test_tangent_masks(void) {
 static void test_tangents_turn(void) {
     limni_fixed along[2][7], across[2][7];
     const limni_star star = {.rule = LIMNI_VERTEX_SMOOTH, .closed = true, .count = 6};
-    limni_loop_tangent_masks(&star, 1, along[0], across[0]);
-    limni_loop_tangent_masks(&star, 4, along[1], across[1]);
+    limni_loop_tangent_masks(&star, 2, along[0], across[0]);
+    limni_loop_tangent_masks(&star, 8, along[1], across[1]);
     for (int w = 0; w < 7; w++)
         CHECK(along[0][w] == -along[1][w] && across[0][w] == -across[1][w]);
     CHECK(along[0][1 + 1] == LIMNI_FIXED_ONE && across[0][1 + 1] == 0);

@@ -651,6 +651,20 @@ static void slot_wide(const blob *file) {
     slots[WHEEL_SIZE * (WHEEL_SIZE + 1) - 1] = WHEEL_SIZE + 1;
 }
 
+static void slot_repeated(const blob *file) {
+    uint8_t *const slots = chunk_data(file, TETRAHEDRON, LIMN_CHUNK_SLOTS);
+    slots[1] = slots[0];
+}
+static void class_pairs_exceed(const blob *file) {
+    classes_of(file)->pair_count = (uint16_t)((classes_of(file)->control_count + 1) / 2);
+}
+static void class_pairs_in_wide(const blob *file) {
+    limn_file_class *class = classes_of(file);
+    while (class->control_count <= LIMN_FORMAT_PAIRED_MAX)
+        class ++;
+    class->pair_count = 1;
+}
+
 #define DAMAGE(name, expected)                                                                     \
     { #name, name, expected }
 
@@ -713,6 +727,9 @@ static const damage damages[] = {
     DAMAGE(index_descending, LIMN_ERROR_INDEX),
     DAMAGE(slot_narrow, LIMN_ERROR_SLOT),
     DAMAGE(slot_wide, LIMN_ERROR_SLOT),
+    DAMAGE(slot_repeated, LIMN_ERROR_INDEX),
+    DAMAGE(class_pairs_exceed, LIMN_ERROR_CLASS),
+    DAMAGE(class_pairs_in_wide, LIMN_ERROR_CLASS),
 };
 
 static void test_damages(void) {

@@ -22,7 +22,7 @@ extern "C" {
 #endif
 
 #define LIMN_FORMAT_MAGIC "LIMN"
-#define LIMN_FORMAT_VERSION 1u
+#define LIMN_FORMAT_VERSION 2u
 
 /// Alignment of the blob in memory and of every chunk in the file, in bytes.
 #define LIMN_FORMAT_ALIGNMENT 64u
@@ -35,6 +35,10 @@ extern "C" {
 
 /// The largest local base of a class, in control points: two corners of valence 1000, for instance.
 #define LIMN_FORMAT_CONTROLS_MAX 2048u
+
+/// A class that is its own mirror image has at most this many control points: longer sums are
+/// compensated, which pairs of rows cannot be.
+#define LIMN_FORMAT_PAIRED_MAX 24u
 
 /// The `mesh` of a chunk that belongs to the file and not to one of its meshes.
 #define LIMN_FORMAT_NO_MESH 0xffffffffu
@@ -90,7 +94,7 @@ typedef struct limn_file_chunk {
 } limn_file_chunk;
 
 /// One topology class: a table of `control_count` columns, each with one coefficient per row of the
-/// domain.
+/// domain; or where the class is its own mirror image, per pair of rows (docs/format.md).
 typedef struct limn_file_class {
     uint64_t table_offset;  ///< of float[control_count][row_stride], in bytes from the start of the
                             ///< tables chunk
@@ -99,7 +103,8 @@ typedef struct limn_file_class {
     uint16_t depth;         ///< deepest level of the table; its padded row count is the row stride
     uint16_t valences[4];   ///< of the patch's corners, in row order; 0 beyond the domain's corners
     uint32_t boundary_corners; ///< bit c: corner c lies on a boundary
-    uint32_t table_count;      ///< 1: positions; 3: then the tangents along and across
+    uint16_t table_count;      ///< 1: positions; 3: then the tangents along and across
+    uint16_t pair_count; ///< 0; or the class is its own mirror image, with this many pairs of slots
 } limn_file_class;
 
 /// How the limit normal of a control point follows from the control points around it: two tangents,
@@ -110,6 +115,17 @@ typedef struct limn_file_normal {
     uint32_t ring_count;   ///< 0: the control point is used by no face
     uint32_t first_weight; ///< into the weights chunk: [2][1 + ring_count]
 } limn_file_normal;
+
+/// Rows of a column, with padding.
+static inline uint32_t limn_file_row_stride(const limn_file_class *file_class) {
+    return file_class->pair_count ? 112 : 160;
+}
+
+/// Floats of all the tables of a class.
+static inline uint64_t limn_file_table_size(const limn_file_class *file_class) {
+    return (uint64_t)file_class->table_count * file_class->control_count *
+           limn_file_row_stride(file_class);
+}
 
 /// Bytes per slot of the patches of a class.
 static inline uint32_t limn_file_slot_size(const limn_file_class *file_class) {
@@ -128,9 +144,9 @@ typedef struct limn_file_mesh {
     uint32_t reserved;
 } limn_file_mesh;
 
-/// Consecutive patches of one class. Patch p of the run has its control indices at
-/// indices[first_index + p * K], and its slots, one or two bytes each, at first_slot + p * K *
-/// (slot width).
+/// Consecutive patches of one class. Patch p of the run has its control indices, by slot, at
+/// indices[first_index + p * K], and at first_slot + p * K * (slot width) its slots, one or two bytes
+/// each, in ascending order of these indices.
 typedef struct limn_file_run {
     uint32_t class_index;
     uint32_t first_patch;

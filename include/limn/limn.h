@@ -64,7 +64,8 @@ uint32_t limn_version(void);
     X(LIMN_ERROR_CONTROLS, "a control point of the bind pose is not finite")                       \
     X(LIMN_ERROR_RUN, "the runs of a mesh do not cover its patches one after the other")           \
     X(LIMN_ERROR_FACE, "a patch names a face or a rotation that does not exist")                   \
-    X(LIMN_ERROR_INDEX, "a patch's control indices are out of range or not ascending")             \
+    X(LIMN_ERROR_INDEX,                                                                            \
+      "a patch's control indices are out of range, or its slots do not order them")                \
     X(LIMN_ERROR_SLOT, "a patch's slot lies outside its class")                                    \
     X(LIMN_ERROR_NORMALS, "the data for normals are out of range, not finite or incomplete")
 
@@ -97,6 +98,7 @@ typedef struct limn_row {
     uint8_t edges;       ///< bit e: the row lies on edge e, from corner e to corner e + 1
     uint16_t parents[2]; ///< the rows of the level before between which it appears; itself, twice,
                          ///< at level 0
+    uint16_t mirror;     ///< the row at (j, i)
 } limn_row;
 
 /// The rows of one edge along its direction.
@@ -242,18 +244,42 @@ limn_plan limn_plan_uniform(const limn_mesh *mesh, uint32_t level);
 /// Index of the first vertex of a patch in the output: the base vertex to draw its indices with.
 uint64_t limn_plan_first_vertex(const limn_plan *plan, uint32_t patch_index);
 
-/// Where vertices go.
+/// How a position is written. Packed, each coordinate is 65535 (x - min) / (max - min), rounded to the
+/// nearest and clamped to the box; neighbours still agree in every bit.
+typedef enum limn_position_format {
+    LIMN_POSITION_FLOAT3,   ///< 12 bytes
+    LIMN_POSITION_UNORM16X4 ///< 8 bytes: x, y, z, and 65535
+} limn_position_format;
+
+/// How a unit normal is written. Signed integers are rounded to the nearest, 1 being 127 or 32767.
+/// Octahedral: n / (|x| + |y| + |z|), and where z < 0, x becomes (1 - |y|) sign(x), and y likewise.
+typedef enum limn_normal_format {
+    LIMN_NORMAL_FLOAT3,   ///< 12 bytes
+    LIMN_NORMAL_OCT16X2,  ///< 4 bytes: octahedral
+    LIMN_NORMAL_OCT8X2,   ///< 2 bytes: octahedral
+    LIMN_NORMAL_SNORM8X4, ///< 4 bytes: x, y, z, 0
+} limn_normal_format;
+
+/// Where vertices go, and in which form. Each byte is written once and none is read. Memory is
+/// written forward: vertex after vertex, or where normals have a stream of their own, a patch of
+/// positions and a patch of normals in turn.
 typedef struct limn_output {
-    void *vertices; ///< vertex 0 of the *plan*, aligned to 4 bytes; written forward within a patch,
-                    ///< never read
-    uint32_t stride; ///< bytes from vertex to vertex, a multiple of 4; 0 means 12, tightly packed
-    void *
-        normals; ///< normal of vertex 0 of the plan, aligned to 4 bytes: in a stream of its own, or
-                 ///< inside the vertices, with the same stride; NULL: no normals
-    uint32_t normal_stride; ///< bytes from normal to normal, a multiple of 4; 0 means 12
+    void *vertices;  ///< position of vertex 0 of the *plan*, aligned to 4 bytes
+    uint32_t stride; ///< bytes from position to position, a multiple of 4; 0 means tightly packed
+    limn_position_format position_format;
+    const float *box; ///< [2][3], min and max, for packed positions; NULL: the mesh's bounds in the
+                      ///< bind pose. The surface never leaves the box of its control points
+    void *normals; ///< normal of vertex 0 of the plan, aligned to 4 bytes, or to 2 if it has 2: in
+                   ///< a stream of its own, or inside the vertices, with the same stride; NULL: no
+                   ///< normals
+    uint32_t normal_stride; ///< bytes from normal to normal, a multiple of the alignment; 0 means
+                            ///< tightly packed
+    limn_normal_format normal_format;
     const float
         *control_normals; ///< [mesh->control_count][3] from limn_mesh_control_normals(), for
                           ///< the corners of the patches; needed with `normals`
+    bool streaming; ///< write past the caches, where the CPU can (x86) and where there are no gaps
+                    ///< between vertices: for memory that this CPU does not read soon
 } limn_output;
 
 /// Limit normals of all control points: unit vectors, towards the side from which faces are
@@ -265,13 +291,12 @@ typedef struct limn_output {
 /// normals   out: [mesh->control_count][3] floats; must not overlap the controls
 void limn_mesh_control_normals(const limn_mesh *mesh, const float *controls, float *normals);
 
-/// Evaluates patches [begin, end) of a plan and writes their positions, three floats at the start
-/// of each vertex, and if asked to, unit normals of the limit surface, three floats each. Does not
-/// allocate, never fails; any number of threads may evaluate disjoint ranges of one plan into one
-/// output. Bytes of a vertex behind its position are left alone. The same input gives the same bits
-/// with every reproducible kernel, and shared vertices of neighbouring patches get the same bits
-/// with any. Both hold if all threads round to nearest and treat denormals alike, and where control
-/// points are finite.
+/// Evaluates patches [begin, end) of a plan and writes their positions, and if asked to, unit
+/// normals of the limit surface. Does not allocate, never fails; any number of threads may evaluate
+/// disjoint ranges of one plan into one output. The caller's own bytes between vertices are left
+/// alone. The same input gives the same bits with every reproducible kernel, and shared vertices of
+/// neighbouring patches get the same bits with any. Both hold if all threads round to nearest and
+/// treat denormals alike, and where control points are finite; docs/design.md says more.
 ///
 /// controls    [mesh->control_count][3] floats, model units, tightly packed; must not overlap the
 ///             output

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The kernels of every instruction set this CPU has, on made-up classes: all ranges of patches, all
- * levels and strides; guard bytes around the output; bit-equal to scalar, and scalar within a bound
- * of a sum in double precision. Links the runtime alone.
+ * levels, formats and strides; guard bytes around the output; bit-equal to scalar, and scalar within
+ * a bound of a sum in double precision. Links the runtime alone.
  */
 #include "../../runtime/checksum.h"
 #include "../../runtime/kernels.h"
 #include "../check.h"
+#include "../coefficients.h"
 
 #include <float.h>
 #include <math.h>
@@ -14,10 +15,11 @@
 
 enum { PATCHES = 3, CONTROLS = 600, STRIDE_MAX = 36, GUARD = 64 };
 
-static const uint32_t control_counts[] = {1, 3, 12, 24, 25, 67, 256, 257, 400};
+static const uint32_t control_counts[] = {3, 3, 12, 12, 24, 24, 25, 67, 256, 257, 400};
+static const uint16_t pair_counts[] = {0, 1, 0, 5, 0, 11, 0, 0, 0, 0, 0};
 enum { CLASSES = sizeof control_counts / sizeof *control_counts };
 
-typedef enum point_kind { RANDOM, EXTREME, DENORMAL, KINDS } point_kind;
+typedef enum point_kind { RANDOM, EXTREME, DENORMAL, NOT_FINITE, KINDS } point_kind;
 
 static uint32_t state = 12345;
 
@@ -36,6 +38,8 @@ static float random_coordinate(point_kind kind) {
         return random_float(-1, 1) * (next_random() % 2 ? 1e30f : 1e-30f);
     case DENORMAL:
         return random_float(-1, 1) * 1e-39f;
+    case NOT_FINITE:
+        return next_random() % 64 ? random_float(-10, 10) : next_random() % 2 ? NAN : -INFINITY;
     default:
         return random_float(-10, 10);
     }
@@ -55,25 +59,27 @@ typedef struct made {
 } made;
 
 /// Coefficients of a class: rows of different support, so that both ways to sum occur in one class.
-static void fill_table(float *table, uint32_t control_count) {
-    for (uint32_t row = 0; row < 160; row++) {
+static void fill_table(const limn_file_class *class, float *table) {
+    const uint32_t control_count = class->control_count, stride = limn_file_row_stride(class);
+    for (uint32_t row = 0; row < stride; row++) {
         const uint32_t support = 1 + next_random() % control_count;
         for (uint32_t slot = 0; slot < control_count; slot++) {
-            const bool used = row < 153 && next_random() % control_count < support;
-            table[slot * 160 + row] = used ? random_float(0, 2.0f / (float)control_count) : 0;
+            const bool used = next_random() % control_count < support;
+            table[slot * stride + row] = used ? random_float(0, 2.0f / (float)control_count) : 0;
         }
     }
 }
 
-/// Ascending control indices and a random permutation of the slots.
+/// A random permutation of the slots, and control indices that ascend in its order.
 static void fill_patch(uint32_t control_count, uint32_t *indices, uint16_t *slots) {
     const uint32_t spread = CONTROLS / control_count;
     for (uint32_t k = 0; k < control_count; k++) {
-        indices[k] = k * spread + next_random() % spread;
         const uint32_t other = next_random() % (k + 1);
         slots[k] = slots[other];
         slots[other] = (uint16_t)k;
     }
+    for (uint32_t k = 0; k < control_count; k++)
+        indices[slots[k]] = k * spread + next_random() % spread;
 }
 
 static void fill_run(made *m, uint32_t c, uint64_t first_index, uint64_t first_slot) {
@@ -96,7 +102,8 @@ static void make(made *m) {
     uint64_t total = 0, index = 0, slot = 0;
     for (uint32_t c = 0; c < CLASSES; c++)
         total += control_counts[c];
-    m->tables = aligned_alloc(64, 3 * total * 160 * sizeof(float));
+    m->tables =
+        aligned_alloc(64, 3 * total * 160 * sizeof(float)); // or less, where there are pairs
     m->indices = malloc(total * PATCHES * sizeof(uint32_t));
     m->slots = malloc(total * PATCHES * 2 + CLASSES);
     uint64_t table = 0;
@@ -105,17 +112,18 @@ static void make(made *m) {
         m->classes[c] = (limn_file_class){.table_offset = table * sizeof(float),
                                           .control_count = control_counts[c],
                                           .table_count = 3,
+                                          .pair_count = pair_counts[c],
                                           .depth = LIMN_LEVEL_MAX};
         m->runs[c] = (limn_file_run){.class_index = c,
                                      .first_patch = c * PATCHES,
                                      .patch_count = PATCHES,
                                      .first_index = index,
                                      .first_slot = slot};
+        const uint64_t table_size = limn_file_table_size(&m->classes[c]);
         for (uint32_t t = 0; t < 3; t++)
-            fill_table(m->tables + table + (uint64_t)t * control_counts[c] * 160,
-                       control_counts[c]);
+            fill_table(&m->classes[c], m->tables + table + t * table_size / 3);
         fill_run(m, c, index, slot);
-        table += (uint64_t)control_counts[c] * 3 * 160;
+        table += table_size;
         index += (uint64_t)control_counts[c] * PATCHES;
         slot += (uint64_t)control_counts[c] * PATCHES * limn_file_slot_size(&m->classes[c]);
     }
@@ -131,33 +139,74 @@ static void make(made *m) {
                           .normals = &m->none};
 }
 
-/// Evaluates a range into a buffer with guards and checks that nothing else was written. Returns
-/// the size of what was written or guarded.
-static size_t evaluate(made *m, const limn_kernels *kernels, uint32_t level, uint32_t stride,
-                       uint32_t begin, uint32_t end, unsigned char *buffer) {
-    m->mesh.kernels = kernels;
-    const limn_plan plan = limn_plan_uniform(&m->mesh, level);
-    const size_t size = (size_t)plan.vertex_count * stride;
-    memset(buffer, 0xa5, size + 2 * GUARD);
-    limn_output output = {.vertices = buffer + GUARD, .stride = stride};
-    const size_t written = stride >= 24 ? 24 : 12; // with room for them, normals
-    if (written == 24) {
-        output.normals = buffer + GUARD + 12;
-        output.normal_stride = stride;
+/// How vertices are laid out.
+typedef struct layout {
+    limn_position_format position;
+    limn_normal_format normal;
+    uint32_t stride, normal_offset; ///< of vertices that hold both; 0: positions alone
+    uint32_t position_offset;
+    bool streaming;
+} layout;
+
+static uint32_t position_size(const layout *l) {
+    return l->position == LIMN_POSITION_FLOAT3 ? 12 : 8;
+}
+
+static uint32_t normal_size(const layout *l) {
+    static const uint8_t sizes[] = {12, 4, 2, 4};
+    return l->stride > position_size(l) + 1 && l->normal_offset != l->position_offset
+               ? sizes[l->normal]
+               : 0;
+}
+
+static bool is_written(const layout *l, size_t at) {
+    return at - l->position_offset < position_size(l) || at - l->normal_offset < normal_size(l);
+}
+
+static limn_output make_output(const made *m, const layout *l, unsigned char *vertices) {
+    static const float box[2][3] = {{-11, -12, -13}, {12, 20, 11}};
+    limn_output output = {.vertices = vertices + l->position_offset,
+                          .stride = l->stride,
+                          .position_format = l->position,
+                          .box = box[0],
+                          .normal_format = l->normal,
+                          .streaming = l->streaming};
+    if (normal_size(l)) {
+        output.normals = vertices + l->normal_offset;
+        output.normal_stride = l->stride;
         output.control_normals = m->normals[0];
     }
+    return output;
+}
+
+/// Evaluates a range into a buffer with guards and checks that nothing else was written. Returns
+/// the size of what was written or guarded.
+static size_t evaluate_as(made *m, const limn_kernels *kernels, uint32_t level, const layout *l,
+                          uint32_t begin, uint32_t end, unsigned char *buffer) {
+    m->mesh.kernels = kernels;
+    const limn_plan plan = limn_plan_uniform(&m->mesh, level);
+    const size_t size = (size_t)plan.vertex_count * l->stride;
+    memset(buffer, 0xa5, size + 2 * GUARD);
+    const limn_output output = make_output(m, l, buffer + GUARD);
     limn_evaluate(&plan, m->controls[0], begin, end, &output);
 
     const size_t row_count = plan.mesh->domain->row_counts[level];
     const size_t first = begin * row_count, last = end * row_count;
     bool untouched = true;
     for (size_t b = 0; b < size + 2 * GUARD; b++) {
-        const bool inside = b >= GUARD + first * stride && b < GUARD + last * stride;
-        if (inside && (b - GUARD) % stride < written) continue;
+        const bool inside = b >= GUARD + first * l->stride && b < GUARD + last * l->stride;
+        if (inside && is_written(l, (b - GUARD) % l->stride)) continue;
         untouched &= buffer[b] == 0xa5;
     }
     CHECK(untouched);
     return size + 2 * GUARD;
+}
+
+/// Floats: positions, and where there is room, normals behind them.
+static size_t evaluate(made *m, const limn_kernels *kernels, uint32_t level, uint32_t stride,
+                       uint32_t begin, uint32_t end, unsigned char *buffer) {
+    const layout l = {.stride = stride, .normal_offset = stride >= 24 ? 12 : 0};
+    return evaluate_as(m, kernels, level, &l, begin, end, buffer);
 }
 
 static unsigned char expected[CLASSES * PATCHES * 153 * STRIDE_MAX + 2 * GUARD];
@@ -215,37 +264,48 @@ static void test_split(made *m, const limn_kernels *kernels) {
     CHECK(memcmp(expected, actual, size) == 0);
 }
 
-/// A bound for a sum of n rounded products, or of a compensated one, relative to the sum of
-/// absolute values, plus the rounding of the origin.
-static double bound(uint32_t terms, double magnitude, double result) {
+/// A row in double precision, and how far from it a kernel may be.
+typedef struct reference {
+    double result, bound;
+} reference;
+
+/// Bounds a sum of n rounded products, or a compensated one, relative to the sum of absolute values,
+/// plus the rounding of the origin. The sums of pairs take three roundings more.
+static double bound(uint32_t terms, bool paired, double magnitude, double result) {
     const double unit = FLT_EPSILON / 2;
-    const double roundings = terms > LIMNI_PLAIN_TERMS ? 4 : terms + 1.0;
+    const double roundings = terms > LIMNI_PLAIN_TERMS ? 4 : terms + (paired ? 4.0 : 1.0);
     return unit * (roundings * magnitude + 2 * fabs(result)) + 150 * (double)FLT_TRUE_MIN;
+}
+
+static reference refer(const made *m, uint32_t c, uint32_t patch, uint32_t row, int axis) {
+    const limn_file_class *const class = &m->classes[c];
+    const limn_file_run *const run = &m->runs[c];
+    const float *const table = m->tables + class->table_offset / sizeof(float);
+    const uint32_t *const indices =
+        m->indices + run->first_index + (size_t)patch * class->control_count;
+    const bool paired =
+        place_of_row(limni_layout_get(LIMN_DOMAIN_TRIANGLE, class->pair_count), row).paired;
+    const float origin = paired ? m->controls[indices[0]][axis] : m->mesh.origin[axis];
+    double sum = 0, magnitude = fabs((double)origin) * paired;
+    uint32_t terms = 0;
+    for (uint32_t slot = 0; slot < class->control_count; slot++) {
+        const double coefficient = coefficient_at(class, table, row, slot);
+        const float relative = m->controls[indices[slot]][axis] - origin; // rounded, as by kernels
+        sum += coefficient * (double)relative;
+        terms += coefficient != 0;
+        // A pair's sum and difference are as large as both its points, and so are its coefficients.
+        magnitude += (fabs(coefficient) + (paired ? 2.0 / class->control_count : 0)) *
+                     fabs((double)relative) * (paired ? 2 : 1);
+    }
+    const double result = sum + (double)origin;
+    return (reference){result, bound(terms, paired, magnitude, result)};
 }
 
 static void check_row(const made *m, uint32_t c, uint32_t patch, uint32_t row,
                       const float *vertex) {
-    const limn_file_run *const run = &m->runs[c];
-    const uint32_t control_count = control_counts[c];
-    const float *const table = m->tables + m->classes[c].table_offset / sizeof(float);
     for (int axis = 0; axis < 3; axis++) {
-        double sum = 0, magnitude = 0;
-        uint32_t terms = 0;
-        for (uint32_t k = 0; k < control_count; k++) {
-            const size_t at = (size_t)patch * control_count + k;
-            uint16_t slot = m->slots[run->first_slot + at];
-            if (control_count > LIMN_FORMAT_NARROW_SLOTS)
-                memcpy(&slot, m->slots + run->first_slot + 2 * at, 2);
-            const double coefficient = table[(size_t)slot * 160 + row];
-            const float point = m->controls[m->indices[run->first_index + at]][axis];
-            const double relative =
-                point - m->mesh.origin[axis]; // rounded to float, like the kernel's
-            sum += coefficient * relative;
-            magnitude += coefficient * fabs(relative);
-            terms += coefficient != 0;
-        }
-        const double result = sum + m->mesh.origin[axis];
-        CHECK_NEAR(vertex[axis], result, bound(terms, magnitude, result));
+        const reference r = refer(m, c, patch, row, axis);
+        CHECK_NEAR((double)vertex[axis], r.result, r.bound);
     }
 }
 
@@ -266,9 +326,9 @@ static void test_precision(made *m, const limn_kernels *kernels) {
 /// The bits of a whole evaluation at every level: the same from all reproducible kernels, whatever
 /// the compiler and its flags. If this changes, results change for everybody.
 static void test_golden(made *m, const limn_kernels *kernels) {
-    static const uint64_t golden[LIMN_LEVEL_COUNT] = {0xb4f9a3bed2503751u, 0x9989404106379bb6u,
-                                                      0x62a3a01d8336f8f2u, 0x26878e699788b882u,
-                                                      0x4feb16fd010b8767u};
+    static const uint64_t golden[LIMN_LEVEL_COUNT] = {0xe2a6d34423703fc1u, 0xfc8cde0aa91e66bau,
+                                                      0x2582e2b10892d81du, 0xadd5f00811554049u,
+                                                      0x817a65835c31c3afu};
     m->mesh.kernels = kernels;
     for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
         const limn_plan plan = limn_plan_uniform(&m->mesh, level);
@@ -297,13 +357,180 @@ static void test_normal_stream(made *m, const limn_kernels *kernels) {
         CHECK(same);
         for (uint32_t patch = 0; patch < plan.patch_count; patch++) {
             uint32_t corners[LIMN_CORNER_MAX];
-            if (control_counts[patch / PATCHES] < 3) continue;
             limn_mesh_corners(&m->mesh, patch, corners);
             for (uint32_t c = 0; c < 3; c++)
                 CHECK(memcmp(normals[limn_plan_first_vertex(&plan, patch) + c],
                              m->normals[corners[c]], 12) == 0);
         }
     }
+}
+
+// ---- Formats
+
+static const layout layouts[] = {
+    {.position = LIMN_POSITION_UNORM16X4, .stride = 8},
+    {.position = LIMN_POSITION_UNORM16X4, .stride = 20, .position_offset = 4, .normal_offset = 4},
+    {.stride = 16, .normal_offset = 12, .normal = LIMN_NORMAL_OCT16X2},
+    {.stride = 16, .normal_offset = 12, .normal = LIMN_NORMAL_SNORM8X4},
+    {.stride = 16, .normal_offset = 12, .normal = LIMN_NORMAL_OCT8X2},
+    {.stride = 16, .position_offset = 4, .normal_offset = 0, .normal = LIMN_NORMAL_OCT16X2},
+    {.stride = 24, .position_offset = 12, .normal_offset = 0},
+    {.stride = 32, .position_offset = 4, .normal_offset = 20},
+    {.stride = 20, .position_offset = 0, .normal_offset = 8, .position = LIMN_POSITION_UNORM16X4},
+    {.stride = 12,
+     .normal_offset = 8,
+     .position = LIMN_POSITION_UNORM16X4,
+     .normal = LIMN_NORMAL_OCT16X2},
+    {.stride = 24,
+     .position_offset = 4,
+     .normal_offset = 18,
+     .position = LIMN_POSITION_UNORM16X4,
+     .normal = LIMN_NORMAL_OCT8X2},
+    {.stride = 28, .position_offset = 4, .normal_offset = 16},
+};
+enum { LAYOUTS = sizeof layouts / sizeof *layouts };
+
+/// As with the scalar kernels, bit for bit; and past the caches as through them.
+static void test_layouts(made *m, const limn_kernels *kernels) {
+    for (int l = 0; l < LAYOUTS; l++) {
+        for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
+            const uint32_t count = m->mesh.patch_count, begin = next_random() % count;
+            const uint32_t end = begin + 1 + next_random() % (count - begin);
+            layout streaming = layouts[l];
+            streaming.streaming = true;
+            const size_t size = evaluate_as(m, kernels, level, &layouts[l], begin, end, actual);
+            evaluate_as(m, kernels, level, &streaming, begin, end, expected);
+            CHECK(memcmp(expected, actual, size) == 0);
+            evaluate_as(m, scalar_kernels(), level, &layouts[l], begin, end, expected);
+            CHECK(kernels->family == LIMN_FAMILY_FAST || memcmp(expected, actual, size) == 0);
+        }
+    }
+    const layout tight = {.stride = 12, .streaming = true};
+    const size_t size = evaluate(m, kernels, 4, 12, 1, m->mesh.patch_count, actual);
+    evaluate_as(m, kernels, 4, &tight, 1, m->mesh.patch_count, expected);
+    CHECK(memcmp(expected, actual, size) == 0);
+}
+
+static void unpack_octahedral(int u, int v, double limit, double n[3]) {
+    n[0] = u / limit, n[1] = v / limit;
+    n[2] = 1 - fabs(n[0]) - fabs(n[1]);
+    if (n[2] < 0) {
+        const double x = n[0];
+        n[0] = (1 - fabs(n[1])) * (x < 0 ? -1 : 1);
+        n[1] = (1 - fabs(x)) * (n[1] < 0 ? -1 : 1);
+    }
+}
+
+static void unpack_normal(limn_normal_format format, const unsigned char *from, double n[3]) {
+    const int8_t *const bytes = (const int8_t *)from;
+    int16_t words[2];
+    memcpy(words, from, format == LIMN_NORMAL_OCT16X2 ? 4 : 2);
+    if (format == LIMN_NORMAL_OCT16X2) unpack_octahedral(words[0], words[1], 32767, n);
+    if (format == LIMN_NORMAL_OCT8X2) unpack_octahedral(bytes[0], bytes[1], 127, n);
+    if (format == LIMN_NORMAL_SNORM8X4) {
+        for (int axis = 0; axis < 3; axis++)
+            n[axis] = bytes[axis] / 127.0;
+        CHECK(bytes[3] == 0);
+    }
+}
+
+static double angle_between(const double a[3], const float b[3]) {
+    double dot = 0, square = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+        const double cross = a[next] * (double)b[last] - a[last] * (double)b[next];
+        dot += a[axis] * (double)b[axis];
+        square += cross * cross;
+    }
+    return atan2(sqrt(square), dot);
+}
+
+/// Packed normals, unpacked, are near the floats: half a step in each coordinate is sqrt(18) of that
+/// in the middle of the octahedron's faces, and sqrt(3) on the sphere. Corners are left out, whose
+/// normals are not of unit length here.
+static void test_packed_normals(made *m, const limn_kernels *kernels) {
+    static const double bounds[] = {0, 4.25 * 0.5 / 32767, 4.25 * 0.5 / 127, 1.74 * 0.5 / 127};
+    const uint32_t count = m->mesh.patch_count;
+    evaluate(m, kernels, LIMN_LEVEL_MAX, 24, 0, count, expected);
+    for (int format = LIMN_NORMAL_OCT16X2; format <= LIMN_NORMAL_SNORM8X4; format++) {
+        const layout l = {.stride = 16, .normal_offset = 12, .normal = (limn_normal_format)format};
+        double furthest = 0;
+        evaluate_as(m, kernels, LIMN_LEVEL_MAX, &l, 0, count, actual);
+        for (size_t v = 0; v < (size_t)count * 153; v++) {
+            double n[3];
+            float exact[3];
+            if (v % 153 < 3) continue;
+            memcpy(exact, expected + GUARD + 24 * v + 12, 12);
+            unpack_normal(l.normal, actual + GUARD + 16 * v + 12, n);
+            furthest = fmax(furthest, angle_between(n, exact));
+        }
+        CHECK(furthest < bounds[format]);
+        CHECK(furthest > bounds[format] / 2); // they are packed at all
+    }
+}
+
+/// Packed positions, unpacked, are half a step from the floats, or on the box.
+static void test_packed_positions(made *m, const limn_kernels *kernels) {
+    static const double low[3] = {-11, -12, -13}, high[3] = {12, 20, 11};
+    const layout l = {.stride = 8, .position = LIMN_POSITION_UNORM16X4};
+    const uint32_t count = m->mesh.patch_count;
+    uint32_t clamped = 0;
+    evaluate(m, kernels, LIMN_LEVEL_MAX, 12, 0, count, expected);
+    evaluate_as(m, kernels, LIMN_LEVEL_MAX, &l, 0, count, actual);
+    for (size_t v = 0; v < (size_t)count * 153; v++) {
+        uint16_t packed[4];
+        float exact[3];
+        memcpy(exact, expected + GUARD + 12 * v, sizeof exact);
+        memcpy(packed, actual + GUARD + 8 * v, sizeof packed);
+        CHECK_EQUAL(packed[3], 65535);
+        for (int axis = 0; axis < 3; axis++) {
+            const double step = (high[axis] - low[axis]) / 65535;
+            const double inside = fmin(fmax((double)exact[axis], low[axis]), high[axis]);
+            clamped += inside != (double)exact[axis];
+            CHECK_NEAR(low[axis] + packed[axis] * step, inside, 0.51 * step);
+        }
+    }
+    CHECK(clamped > 0);
+}
+
+/// Whether a row depends on a control point that is not finite; `any`: whether its patch does.
+static bool is_spoilt(const made *m, uint32_t patch, uint32_t row, int axis, bool *any) {
+    const limn_file_run *const run = &m->runs[patch / PATCHES];
+    const limn_file_class *const class = &m->classes[run->class_index];
+    const float *const table = m->tables + class->table_offset / sizeof(float);
+    const uint32_t *const indices =
+        m->indices + run->first_index + (size_t)(patch % PATCHES) * class->control_count;
+    bool spoilt = false;
+    *any = false;
+    for (uint32_t slot = 0; slot < class->control_count; slot++) {
+        if (isfinite(m->controls[indices[slot]][axis])) continue;
+        *any = true;
+        spoilt |= coefficient_at(class, table, row, slot) != 0;
+    }
+    return spoilt;
+}
+
+/// NaN and infinity reach all rows that depend on them, and no other patches.
+static void test_not_finite(made *m, const limn_kernels *kernels) {
+    m->mesh.kernels = kernels;
+    const limn_plan plan = limn_plan_uniform(&m->mesh, LIMN_LEVEL_MAX);
+    uint32_t spoilt_count = 0, finite_count = 0;
+    limn_evaluate(&plan, m->controls[0], 0, plan.patch_count, &(limn_output){.vertices = actual});
+    for (uint32_t patch = 0; patch < plan.patch_count; patch++) {
+        for (uint32_t row = 0; row < 153; row++) {
+            float vertex[3];
+            memcpy(vertex, actual + 12 * (153 * (size_t)patch + row), sizeof vertex);
+            for (int axis = 0; axis < 3; axis++) {
+                bool any;
+                const bool spoilt = is_spoilt(m, patch, row, axis, &any);
+                if (spoilt) CHECK(!isfinite(vertex[axis]));
+                if (!any) CHECK(isfinite(vertex[axis]));
+                spoilt_count += spoilt;
+                finite_count += !any;
+            }
+        }
+    }
+    CHECK(spoilt_count > 0 && finite_count > 0);
 }
 
 static void test_selection(void) {
@@ -322,12 +549,20 @@ static void test_selection(void) {
 }
 
 static void test_kernels(made *m, const limn_kernels *kernels, point_kind kind) {
+    if (kind == NOT_FINITE) { // the bits of a NaN are the CPU's
+        test_not_finite(m, kernels);
+        return;
+    }
     test_precision(m, kernels);
     if (kind == RANDOM && kernels->family == LIMN_FAMILY_REPRODUCIBLE) test_golden(m, kernels);
     test_ranges(m, kernels);
     test_split(m, kernels);
     test_prefix(m, kernels);
     test_normal_stream(m, kernels);
+    test_layouts(m, kernels);
+    if (kind != RANDOM) return;
+    test_packed_normals(m, kernels);
+    test_packed_positions(m, kernels);
 }
 
 int main(void) {

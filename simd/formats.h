@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * From the rows of one patch to what a vertex holds: planes of 32-bit words, one word for each row.
+ * Integers are found without conversions, which every instruction set does its own way: adding a
+ * number with the right exponent rounds to a whole number (halves to even) and leaves it in the
+ * lower bits. All loops go on to the end of a vector.
+ */
+#ifndef FORMATS_H
+#define FORMATS_H
+
+#include "sums.h"
+
+#include <float.h>
+
+/// Between low and high; NaN becomes low.
+static inline lanes clamp(lanes a, lanes low, lanes high) {
+    a = lanes_select_greater(a, low, a, low);
+    return lanes_select_greater(high, a, a, high);
+}
+
+/// 0 to 65535 in the lower 16 bits.
+static inline lanes quantise_unsigned(lanes a) {
+    return lanes_add(clamp(a, lanes_zero(), lanes_splat(65535.0f)), lanes_splat(0x1p23f));
+}
+
+/// -limit to limit, in two's complement, for a between -1 and 1.
+static inline lanes quantise_signed(lanes a, float limit) {
+    const lanes clamped = clamp(a, lanes_splat(-1.0f), lanes_splat(1.0f));
+    return lanes_add(lanes_multiply(clamped, lanes_splat(limit)), lanes_splat(0x1.8p23f));
+}
+
+/// Positions become two planes: x and y, z and 65535.
+static inline void pack_unorm16x4(const limni_target *target, size_t row_count, vectors *rows) {
+    const lanes one = lanes_splat(0x1p23f + 65535.0f);
+    for (size_t row = 0; row < row_count; row += LANES_WIDTH) {
+        lanes packed[3];
+        for (int axis = 0; axis < 3; axis++) {
+            const lanes from_box = lanes_subtract(lanes_load_any(&rows->axes[axis][row]),
+                                                  lanes_splat(target->box_min[axis]));
+            packed[axis] =
+                quantise_unsigned(lanes_multiply(from_box, lanes_splat(target->box_scale[axis])));
+        }
+        lanes_store(&rows->axes[0][row], lanes_join(packed[0], packed[1], 16));
+        lanes_store(&rows->axes[1][row], lanes_join(packed[2], one, 16));
+    }
+}
+
+// ---- Normals
+
+/// 1 / sqrt(a) for normal a, within 3 units in the last place: a guess from the bits (Lomont, "Fast
+/// inverse square root", 2003) and three steps of Newton's iteration. Cheaper than a root and a
+/// division, and the same everywhere.
+static inline lanes inverse_root(lanes a) {
+    const lanes half = lanes_multiply(a, lanes_splat(0.5f)), three_halves = lanes_splat(1.5f);
+    lanes root = lanes_less_half_bits(0x5f375a86u, a);
+    for (int step = 0; step < 3; step++) {
+        const lanes square = lanes_multiply(root, root);
+        root = lanes_multiply(root, lanes_subtract(three_halves, lanes_multiply(half, square)));
+    }
+    return root;
+}
+
+/// Unit normals from two tangents, in place of the first. Along a shared edge the neighbour has both
+/// tangents negated, bit for bit, so that products, and all that follows, are the same but for the
+/// signs of zeros; adding +0 makes those alike. Where the cross product is too short or too long to
+/// be squared, the normal is (0, 0, 1).
+static inline void find_normals(const vectors *across, size_t row_count, vectors *along) {
+    const lanes zero = lanes_zero(), one = lanes_splat(1.0f);
+    const lanes least = lanes_splat(FLT_MIN), most = lanes_splat(FLT_MAX);
+    for (size_t row = 0; row < row_count; row += LANES_WIDTH) {
+        const lanes ax = lanes_load_any(&along->axes[0][row]);
+        const lanes ay = lanes_load_any(&along->axes[1][row]);
+        const lanes az = lanes_load_any(&along->axes[2][row]);
+        const lanes bx = lanes_load_any(&across->axes[0][row]);
+        const lanes by = lanes_load_any(&across->axes[1][row]);
+        const lanes bz = lanes_load_any(&across->axes[2][row]);
+        const lanes x = lanes_subtract(lanes_multiply(ay, bz), lanes_multiply(az, by));
+        const lanes y = lanes_subtract(lanes_multiply(az, bx), lanes_multiply(ax, bz));
+        const lanes z = lanes_subtract(lanes_multiply(ax, by), lanes_multiply(ay, bx));
+        const lanes square =
+            lanes_add(lanes_add(lanes_multiply(x, x), lanes_multiply(y, y)), lanes_multiply(z, z));
+        const lanes root = inverse_root(square);
+        const lanes scale = lanes_select_greater(
+            square, least, lanes_select_greater(most, square, root, zero), zero);
+        const lanes fallback = lanes_select_greater(scale, zero, zero, one);
+        lanes_store(&along->axes[0][row], lanes_add(lanes_multiply(x, scale), zero));
+        lanes_store(&along->axes[1][row], lanes_add(lanes_multiply(y, scale), zero));
+        lanes_store(&along->axes[2][row], lanes_add(lanes_multiply(z, scale), fallback));
+    }
+}
+
+/// The octahedron's lower half is folded outwards over its upper (Cigolle and others, "A survey of
+/// efficient representations for independent unit vectors", 2014). The result is one plane of
+/// `bits` bits each.
+static inline void pack_octahedral(size_t row_count, int bits, float limit, vectors *rows) {
+    const lanes zero = lanes_zero(), one = lanes_splat(1.0f);
+    for (size_t row = 0; row < row_count; row += LANES_WIDTH) {
+        const lanes x = lanes_load_any(&rows->axes[0][row]);
+        const lanes y = lanes_load_any(&rows->axes[1][row]);
+        const lanes z = lanes_load_any(&rows->axes[2][row]);
+        const lanes sum = lanes_add(lanes_add(lanes_copy_sign(x, one), lanes_copy_sign(y, one)),
+                                    lanes_copy_sign(z, one));
+        const lanes root = inverse_root(sum), scale = lanes_multiply(root, root);
+        const lanes u = lanes_multiply(x, scale), v = lanes_multiply(y, scale);
+        const lanes folded_u = lanes_copy_sign(lanes_subtract(one, lanes_copy_sign(v, one)), u);
+        const lanes folded_v = lanes_copy_sign(lanes_subtract(one, lanes_copy_sign(u, one)), v);
+        const lanes a = quantise_signed(lanes_select_greater(zero, z, folded_u, u), limit);
+        const lanes b = quantise_signed(lanes_select_greater(zero, z, folded_v, v), limit);
+        lanes_store(&rows->axes[0][row], bits == 8 ? lanes_join(a, b, 8) : lanes_join(a, b, 16));
+    }
+}
+
+static inline void pack_snorm8x4(size_t row_count, vectors *rows) {
+    for (size_t row = 0; row < row_count; row += LANES_WIDTH) {
+        const lanes x = quantise_signed(lanes_load_any(&rows->axes[0][row]), 127.0f);
+        const lanes y = quantise_signed(lanes_load_any(&rows->axes[1][row]), 127.0f);
+        const lanes z = quantise_signed(lanes_load_any(&rows->axes[2][row]), 127.0f);
+        const lanes xy = lanes_join(x, y, 8), zw = lanes_join(z, lanes_zero(), 8);
+        lanes_store(&rows->axes[0][row], lanes_join(xy, zw, 16));
+    }
+}
+
+#endif

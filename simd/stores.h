@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * From planes of words to the caller's memory, which may be write-combined: each byte is written
+ * once, going forward, and nothing is read.
+ */
+#ifndef STORES_H
+#define STORES_H
+
+#include "sums.h"
+
+#include <string.h>
+
+enum { WORDS_MAX = 6, VERTEX_MAX = 4 * WORDS_MAX };
+
+/// Consecutive bytes of each vertex.
+typedef struct part {
+    size_t planes[WORDS_MAX]; ///< where in the scratch of a patch, in floats
+    size_t word_count;
+    size_t size;        ///< bytes: 4 for each word, or 2
+    unsigned char *dst; ///< of the first vertex of the run
+    size_t stride;      ///< bytes from vertex to vertex
+} part;
+
+static inline void store_vertex(const part *p, const float *rows, unsigned char *base, size_t row) {
+    unsigned char *const dst = base + row * p->stride;
+    if (p->size == 2) {
+        memcpy(dst, rows + p->planes[0] + row,
+               2); // the lower half: files are little-endian, and so is this
+        return;
+    }
+    for (size_t w = 0; w < p->word_count; w++)
+        memcpy(dst + 4 * w, rows + p->planes[w] + row, 4);
+}
+
+/// Four vertices of six words behind one another: positions and normals.
+static inline void store_four_dense(const part *p, const float *rows, unsigned char *base,
+                                    size_t row) {
+    quad w[6], pairs[3][2];
+    for (int i = 0; i < 6; i++)
+        w[i] = quad_load(rows + p->planes[i] + row);
+    for (int i = 0; i < 3; i++) {
+        pairs[i][0] = quad_zip_low(w[2 * i], w[2 * i + 1]);
+        pairs[i][1] = quad_zip_high(w[2 * i], w[2 * i + 1]);
+    }
+    unsigned char *dst = base + row * p->stride;
+    for (int half = 0; half < 2; half++, dst += 48) {
+        quad_store(dst, quad_low_low(pairs[0][half], pairs[1][half]));
+        quad_store(dst + 16, quad_low_high(pairs[2][half], pairs[0][half]));
+        quad_store(dst + 32, quad_high_high(pairs[1][half], pairs[2][half]));
+    }
+}
+
+/// Four vertices of four words or more.
+static inline void store_four(const part *p, const float *rows, unsigned char *base, size_t row) {
+    quad w[4];
+    for (int i = 0; i < 4; i++)
+        w[i] = quad_load(rows + p->planes[i] + row);
+    const quad ab[2] = {quad_zip_low(w[0], w[1]), quad_zip_high(w[0], w[1])};
+    const quad cd[2] = {quad_zip_low(w[2], w[3]), quad_zip_high(w[2], w[3])};
+    unsigned char *dst = base + row * p->stride;
+    for (size_t v = 0; v < 4; v++, dst += p->stride) {
+        const quad first =
+            v % 2 ? quad_high_high(ab[v / 2], cd[v / 2]) : quad_low_low(ab[v / 2], cd[v / 2]);
+        quad_store(dst, first);
+        for (size_t i = 4; i < p->word_count; i++)
+            memcpy(dst + 4 * i, rows + p->planes[i] + row + v, 4);
+    }
+}
+
+/// Rows [row, end), four at a time. Returns the first that is left.
+static inline size_t store_fours(const part *p, const float *rows, unsigned char *base, size_t row,
+                                 size_t end) {
+    if (p->word_count == 6 && p->size == p->stride) {
+        for (; row + 4 <= end; row += 4)
+            store_four_dense(p, rows, base, row);
+    } else if (p->word_count >= 4) {
+        for (; row + 4 <= end; row += 4)
+            store_four(p, rows, base, row);
+    }
+    return row;
+}
+
+/// The same with vertices of one to three words behind one another, a vector of them at a time. A loop
+/// each: the words would be counted again for every vector.
+static inline size_t store_dense(const part *p, const float *rows, unsigned char *base, size_t row,
+                                 size_t end) {
+    const float *const x = rows + p->planes[0];
+    const float *const y = rows + p->planes[1], *const z = rows + p->planes[2];
+    float *dst = (float *)(void *)base + row * p->word_count;
+    if (p->word_count == 3) {
+        for (; row + LANES_WIDTH <= end; row += LANES_WIDTH, dst += 3 * LANES_WIDTH)
+            lanes_store_xyz(dst, lanes_load_any(x + row), lanes_load_any(y + row),
+                            lanes_load_any(z + row));
+    } else if (p->word_count == 2) {
+        for (; row + LANES_WIDTH <= end; row += LANES_WIDTH, dst += 2 * LANES_WIDTH)
+            lanes_store_xy(dst, lanes_load_any(x + row), lanes_load_any(y + row));
+    } else {
+        for (; row + LANES_WIDTH <= end; row += LANES_WIDTH, dst += LANES_WIDTH)
+            lanes_store(dst, lanes_load_any(x + row));
+    }
+    return row;
+}
+
+/// Rows [row, end) of a patch.
+///
+/// rows  its scratch
+/// base  where its first row goes
+static inline void store_rows(const part *p, const float *rows, unsigned char *base, size_t row,
+                              size_t end) {
+    const bool few = p->word_count <= 3 && p->size == 4 * p->word_count && p->size == p->stride;
+    row = few ? store_dense(p, rows, base, row, end) : store_fours(p, rows, base, row, end);
+    for (; row < end; row++)
+        store_vertex(p, rows, base, row);
+}
+
+/// The parts of the vertices: positions, and perhaps normals.
+typedef struct parts {
+    part items[2];
+    int count;
+    bool apart;   ///< both lie in the same vertices, the first in front, with bytes of the caller's
+                  ///< between them
+    size_t first; ///< vertex of the patch, in the run
+} parts;
+
+static inline unsigned char *base_of(const parts *p, int item) {
+    return p->items[item].dst + p->first * p->items[item].stride;
+}
+
+/// Appends b to a, if it lies right behind it in the same vertices.
+static inline bool join(part *a, const part *b) {
+    if (a->dst + a->size != b->dst || a->size % 4 != 0 || b->size % 4 != 0) return false;
+    for (size_t w = 0; w < b->word_count; w++)
+        a->planes[a->word_count++] = b->planes[w];
+    a->size += b->size;
+    return true;
+}
+
+/// b: NULL if there is but a
+static inline void arrange_parts(const part *a, const part *b, parts *p) {
+    *p = (parts){.items = {*a}, .count = 1};
+    if (!b) return;
+    p->count = 2;
+    p->items[1] = *b;
+    const uintptr_t distance = (uintptr_t)b->dst - (uintptr_t)a->dst;
+    if (a->stride != b->stride || (distance >= a->stride && -distance >= a->stride)) return;
+    p->apart = true;
+    if (b->dst < a->dst) {
+        p->items[0] = *b;
+        p->items[1] = *a;
+    }
+    if (join(&p->items[0], &p->items[1])) p->count = 1;
+}
+
+static inline void store_parts(const parts *p, const float *rows, size_t row, size_t end) {
+    if (p->count == 2 && p->apart) {
+        for (; row < end; row++) {
+            store_vertex(&p->items[0], rows, base_of(p, 0), row);
+            store_vertex(&p->items[1], rows, base_of(p, 1), row);
+        }
+        return;
+    }
+    for (int i = 0; i < p->count; i++)
+        store_rows(&p->items[i], rows, base_of(p, i), row, end);
+}
+
+/// All rows past the caches, by way of L1. There is no such way where the caller has bytes of his own
+/// between the vertices.
+static inline void stream_parts(const parts *p, const float *rows, size_t row_count) {
+    _Alignas(64) unsigned char staging[LIMNI_ROW_MAX * VERTEX_MAX];
+    for (int i = 0; i < p->count; i++) {
+        const part *const item = &p->items[i];
+        if (item->size != item->stride || item->size % 4 != 0) {
+            store_parts(p, rows, 0, row_count);
+            return;
+        }
+    }
+    for (int i = 0; i < p->count; i++) {
+        store_rows(&p->items[i], rows, staging, 0, row_count);
+        lanes_stream(base_of(p, i), staging, row_count * p->items[i].size);
+    }
+}
+
+#endif
