@@ -103,12 +103,11 @@ static void measure_sizes(const void *blob, size_t size, bool with_stencils, out
     result->patch_size =
         mesh.run_count * sizeof(limn_file_run) + mesh.patch_count * sizeof(uint32_t);
     for (uint32_t c = 0; c < pack.class_count; c++)
-        result->table_size += (uint64_t)mesh.classes[c].table_count *
-                              mesh.classes[c].control_count * 160 * sizeof(float);
+        result->table_size += limn_file_table_size(&mesh.classes[c]) * sizeof(float);
     for (uint32_t r = 0; r < mesh.run_count; r++) {
-        const uint32_t controls = mesh.classes[mesh.runs[r].class_index].control_count;
-        const uint32_t slot_size = controls <= LIMN_FORMAT_NARROW_SLOTS ? 1 : 2;
-        result->patch_size += (uint64_t)mesh.runs[r].patch_count * controls * (4 + slot_size);
+        const limn_file_class *const class = &mesh.classes[mesh.runs[r].class_index];
+        result->patch_size += (uint64_t)mesh.runs[r].patch_count * class->control_count *
+                              (4 + limn_file_slot_size(class));
     }
     if (with_stencils) result->stencil_size = measure_stencils(&mesh);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * limn-bench kernels: what a patch costs with every instruction set, family and level, and how much
- * of what this core can do at most that is. Everything is measured in turn, round after round, in
- * one process.
+ * limn-bench kernels: what a patch costs with every instruction set, family, level and output, and
+ * how much of what this core can do at most that is. Everything is measured in turn, round after
+ * round, in one process.
  */
 #include "bench.h"
 
@@ -22,25 +22,34 @@
 
 static const char help[] =
     "usage: limn-bench kernels [OPTIONS] [MESH...]\n\n"
-    "Evaluates a regular torus, the same torus with edges flipped at random (\"worst\": "
-    "neighbours\n"
-    "rarely share a class) and every MESH (.obj, .off: baked first; .limn: its first mesh), all\n"
-    "variants in turn, and prints medians:\n\n"
+    "Evaluates a regular torus, the same torus with edges flipped at random (\"worst\":\n"
+    "neighbours rarely share a class) and every MESH (.obj, .off: baked first; .limn: its\n"
+    "first mesh), all variants and outputs in turn, and prints medians:\n\n"
     "  ns per patch   by level 0 to 4\n"
-    "  % of peak      multiply-adds, rows x control points x 3, beside what this core does at "
-    "most\n"
-    "                 between registers: fused for the fast family, else multiply, then add\n"
+    "  % of peak      multiply-adds, rows x control points x 3, or x 9 with normals, beside\n"
+    "                 what this core does at most between registers: fused for the fast family,\n"
+    "                 else multiply, then add. It can exceed 100: classes that are their own\n"
+    "                 mirror images are summed with less work than is counted here\n"
     "  Mvertices/s    at level 4\n"
     "  % of stores    bytes written at level 4 beside plain forward stores into the same buffer\n\n"
     "  class          ranges of as many patches as the buffer holds, in file order\n"
     "  shuffled       ranges of one patch in random order: with one call per patch, and control\n"
     "                 points, indices and tables from anywhere\n"
     "  warm           the whole mesh, again and again\n"
-    "  cold           64 patches, after their tables, but nothing else, were taken out of the "
-    "caches\n\n"
-    "Vertices go to a small buffer that is used again and again, as a mapped ring buffer would "
-    "be.\n\n"
+    "  cold           64 patches, after their tables, but nothing else, were taken out of the\n"
+    "                 caches\n\n"
+    "Vertices go to a small buffer that is used again and again, as a mapped ring buffer would\n"
+    "be. Outputs, and bytes per vertex:\n\n"
+    "  position         12: floats\n"
+    "  position+normal  24: floats, in two streams, a half of the buffer each\n"
+    "  interleaved      24: floats, the normal behind the position\n"
+    "  packed           12: UNORM16X4, and OCT16X2 behind it\n"
+    "  streaming        12: floats, past the caches; the stores beside are not\n\n"
+    "All but the first two are measured only by class and warm. A .limn file without normals has\n"
+    "only outputs without.\n\n"
     "  --isa LIST     scalar,sse2,avx2,neon: only these\n"
+    "  --output LIST  only these outputs\n"
+    "  --all          all outputs shuffled and cold too\n"
     "  --rounds N     samples of each figure (default 25)\n"
     "  --quick        3 rounds of short samples\n"
     "  --buffer KIB   size of the buffer (default 64)\n"
@@ -57,19 +66,32 @@ enum {
 
 typedef struct options {
     uint32_t isa_mask;
+    uint32_t output_mask; ///< bit o: outputs[o]
+    bool all_modes;
     int rounds;
     double sample_seconds;
     size_t buffer_size;
     const char *csv;
 } options;
 
-/// What is written. A further output is one line.
+/// What is written. A further output is one entry.
 static const struct output_kind {
     const char *name;
-    uint32_t stride;
-    uint32_t sums; ///< multiply-adds per row and control point
+    uint32_t vertex_size;   ///< bytes
+    uint32_t sums;          ///< multiply-adds per row and control point
+    bool all_modes;         ///< else only in class order and warm
+    uint32_t normal_offset; ///< of the normal in its vertex; 0: normals have half of the buffer
+    limn_output form;       ///< without addresses; normal_stride 0: no normals
 } outputs[] = {
-    {"position", 3 * sizeof(float), 3},
+    {"position", 12, 3, .all_modes = true, .form = {.stride = 12}},
+    {"position+normal", 24, 9, .all_modes = true, .form = {.stride = 12, .normal_stride = 12}},
+    {"interleaved", 24, 9, .normal_offset = 12, .form = {.stride = 24, .normal_stride = 24}},
+    {"packed", 12, 9, .normal_offset = 8,
+     .form = {.stride = 12,
+              .normal_stride = 12,
+              .position_format = LIMN_POSITION_UNORM16X4,
+              .normal_format = LIMN_NORMAL_OCT16X2}},
+    {"streaming", 12, 3, .form = {.stride = 12, .streaming = true}},
 };
 
 enum { OUTPUT_COUNT = sizeof outputs / sizeof *outputs };
@@ -130,20 +152,35 @@ static const limn_file_class *class_of(const cell *c, uint32_t position) {
     return &base->mesh.classes[base->patch_classes[patch_at(c, position)]];
 }
 
+/// Where a patch goes that is the `cursor`th in the buffer. An output begins with the first vertex
+/// of the plan, which does not exist here.
+static limn_output output_at(const session *s, const cell *c, uint32_t patch, uint32_t cursor) {
+    const struct output_kind *const kind = c->output;
+    const uint32_t rows = c->mix->base.mesh.domain->row_counts[c->level];
+    const uintptr_t start = (uintptr_t)s->buffer;
+    const uintptr_t vertex = (uintptr_t)rows * cursor - (uintptr_t)rows * patch;
+    const uintptr_t normals =
+        start + (kind->normal_offset ? kind->normal_offset : s->options.buffer_size / 2);
+    limn_output output = kind->form;
+    output.vertices = (void *)(start + vertex * kind->form.stride);
+    if (kind->form.normal_stride == 0) return output;
+    output.normals = (void *)(normals + vertex * kind->form.normal_stride);
+    output.control_normals = c->mix->base.control_normals;
+    return output;
+}
+
 /// Evaluates a span into the buffer, from its start again whenever it is full.
 static void evaluate_span(const session *s, const cell *c, const limn_plan *plan, span part) {
-    const size_t patch_size = (size_t)plan->mesh->domain->row_counts[c->level] * c->output->stride;
-    const uint32_t capacity = (uint32_t)(s->options.buffer_size / patch_size);
+    const uint32_t rows = plan->mesh->domain->row_counts[c->level];
+    const uint32_t capacity =
+        (uint32_t)(s->options.buffer_size / ((size_t)rows * c->output->vertex_size));
     const uint32_t step = c->is_shuffled ? 1 : capacity;
     const uint32_t end = part.first + part.count;
     uint32_t cursor = 0;
     for (uint32_t position = part.first; position < end; position += step) {
         const uint32_t patch = patch_at(c, position);
         const uint32_t count = end - position < step ? end - position : step;
-        // An output begins with the first vertex of the plan, which does not exist here.
-        const uintptr_t target = (uintptr_t)s->buffer + cursor * patch_size;
-        const limn_output output = {.vertices = (void *)(target - patch * patch_size),
-                                    .stride = c->output->stride};
+        const limn_output output = output_at(s, c, patch, cursor);
         limn_evaluate(plan, plan->mesh->controls, patch, patch + count, &output);
         cursor = cursor + 2 * step <= capacity ? cursor + step : 0;
     }
@@ -175,8 +212,7 @@ static void evict_tables(const cell *c, span part) {
         const limn_file_class *const class = class_of(c, p);
         if (class != last)
             evict(mesh->tables + class->table_offset / sizeof(float),
-                  (size_t) class->control_count * mesh->domain->padded_row_counts[class->depth] *
-                      sizeof(float));
+                  (size_t)limn_file_table_size(class) * sizeof(float));
         last = class;
     }
 }
@@ -266,6 +302,11 @@ static const char *family_name(const limn_kernels *kernels) {
     return limn_kernels_family(kernels) == LIMN_FAMILY_FAST ? "fast" : "reproducible";
 }
 
+/// Whether the mesh has what an output needs.
+static bool is_possible(const mix *m, const struct output_kind *output) {
+    return output->form.normal_stride == 0 || m->base.control_normals;
+}
+
 static double rows_of(const cell *c) {
     return c->mix->base.mesh.domain->row_counts[c->level];
 }
@@ -276,15 +317,22 @@ static double compute_share(const cell *c) {
 }
 
 static double store_share(const cell *c) {
-    return rows_of(c) * c->output->stride / c->median.bytes;
+    return rows_of(c) * c->output->vertex_size / c->median.bytes;
+}
+
+static const cell *first_cell_of(const session *s, const variant *v) {
+    for (uint32_t c = 0; c < s->cell_count; c++) {
+        if (s->cells[c].variant == v) return &s->cells[c];
+    }
+    return NULL;
 }
 
 /// The peaks, as they were while the first row of this variant was measured.
 static void print_peaks(const session *s) {
     printf("\n%-6s %-12s %18s %14s\n", "isa", "family", "multiply-adds G/s", "stores GB/s");
-    const uint32_t step = MODE_COUNT * LIMN_LEVEL_COUNT;
     for (uint32_t v = 0; v < s->variant_count; v++) {
-        const cell *const c = &s->cells[v * step];
+        const cell *const c = first_cell_of(s, &s->variants[v]);
+        if (!c) continue;
         printf("%-6s %-12s %18.1f %14.1f\n", limn_kernels_name(c->variant->kernels),
                family_name(c->variant->kernels), c->median.multiply_adds / c->median.seconds / 1e9,
                c->median.bytes / c->median.seconds / 1e9);
@@ -307,6 +355,10 @@ static void print_row(const cell *cells) {
 }
 
 static void print_mix(const session *s, const mix *m, const struct output_kind *output) {
+    if (!is_possible(m, output)) {
+        printf("\n%s, %s: the file has no normals\n", m->base.name, output->name);
+        return;
+    }
     double controls = 0;
     for (uint32_t p = 0; p < m->base.mesh.patch_count; p++)
         controls += m->base.mesh.classes[m->base.patch_classes[p]].control_count;
@@ -403,16 +455,23 @@ static void add_levels(session *s, const mix *m, const struct output_kind *outpu
     }
 }
 
+/// All rows of one part of the table.
+static void add_rows(session *s, const mix *m, const struct output_kind *output) {
+    const int modes = output->all_modes || s->options.all_modes ? MODE_COUNT : 1;
+    if (!is_possible(m, output)) return;
+    for (uint32_t v = 0; v < s->variant_count; v++) {
+        for (int mode = 0; mode < modes; mode++)
+            add_levels(s, m, output, &s->variants[v], mode);
+    }
+}
+
 static void add_cells(session *s) {
     s->cells = allocate((size_t)s->mix_count * OUTPUT_COUNT * s->variant_count * MODE_COUNT *
                             LIMN_LEVEL_COUNT,
                         sizeof *s->cells);
     for (uint32_t m = 0; m < s->mix_count; m++) {
         for (int o = 0; o < OUTPUT_COUNT; o++) {
-            for (uint32_t v = 0; v < s->variant_count; v++) {
-                for (int mode = 0; mode < MODE_COUNT; mode++)
-                    add_levels(s, &s->mixes[m], &outputs[o], &s->variants[v], mode);
-            }
+            if (s->options.output_mask >> o & 1) add_rows(s, &s->mixes[m], &outputs[o]);
         }
     }
 }
@@ -444,26 +503,38 @@ static bool run(session *s, char **paths, int path_count) {
            s->options.buffer_size / 1024);
     print_peaks(s);
     for (uint32_t m = 0; m < s->mix_count; m++) {
-        for (int o = 0; o < OUTPUT_COUNT; o++)
-            print_mix(s, &s->mixes[m], &outputs[o]);
+        for (int o = 0; o < OUTPUT_COUNT; o++) {
+            if (s->options.output_mask >> o & 1) print_mix(s, &s->mixes[m], &outputs[o]);
+        }
     }
     if (!s->options.csv || write_csv(s)) return true;
     fprintf(stderr, "limn-bench: cannot write '%s'\n", s->options.csv);
     return false;
 }
 
-/// 0 if a name is not known.
-static uint32_t parse_isas(const char *list) {
+/// The name of a bit in an option's list; NULL behind the last.
+typedef const char *bit_name(uint32_t bit);
+
+static const char *isa_name(uint32_t bit) {
     static const char *const names[] = {"scalar", "sse2", "avx2", "neon"};
+    return bit < sizeof names / sizeof *names ? names[bit] : NULL;
+}
+
+static const char *output_name(uint32_t bit) {
+    return bit < OUTPUT_COUNT ? outputs[bit].name : NULL;
+}
+
+/// The bits that a list names; 0 if a name is not known.
+static uint32_t parse_list(const char *list, bit_name *name_of) {
     uint32_t mask = 0;
     for (const char *name = list; *name;) {
         const size_t length = strcspn(name, ",");
         uint32_t bit = 0;
-        for (uint32_t n = 0; n < sizeof names / sizeof *names; n++) {
-            if (strlen(names[n]) == length && strncmp(name, names[n], length) == 0) bit = 1u << n;
-        }
-        if (bit == 0) return 0;
-        mask |= bit;
+        while (name_of(bit) &&
+               (strlen(name_of(bit)) != length || strncmp(name, name_of(bit), length) != 0))
+            bit++;
+        if (!name_of(bit)) return 0;
+        mask |= 1u << bit;
         name += length + (name[length] == ',');
     }
     return mask;
@@ -472,8 +543,14 @@ static uint32_t parse_isas(const char *list) {
 static bool parse_option(int option, options *to) {
     switch (option) {
     case 'i':
-        to->isa_mask = parse_isas(optarg);
+        to->isa_mask = parse_list(optarg, isa_name);
         return to->isa_mask != 0;
+    case 'o':
+        to->output_mask = parse_list(optarg, output_name);
+        return to->output_mask != 0;
+    case 'a':
+        to->all_modes = true;
+        return true;
     case 'r':
         to->rounds = atoi(optarg);
         return to->rounds > 0 && to->rounds <= ROUND_MAX;
@@ -494,6 +571,8 @@ static bool parse_option(int option, options *to) {
 
 int bench_kernels(int argc, char **argv) {
     static const struct option names[] = {{"isa", required_argument, NULL, 'i'},
+                                          {"output", required_argument, NULL, 'o'},
+                                          {"all", no_argument, NULL, 'a'},
                                           {"rounds", required_argument, NULL, 'r'},
                                           {"quick", no_argument, NULL, 'q'},
                                           {"csv", required_argument, NULL, 'c'},
@@ -501,6 +580,7 @@ int bench_kernels(int argc, char **argv) {
                                           {"help", no_argument, NULL, 'h'},
                                           {0}};
     session s = {.options = {.isa_mask = LIMN_ISA_ALL,
+                             .output_mask = (1u << OUTPUT_COUNT) - 1,
                              .rounds = 25,
                              .sample_seconds = 1e-3,
                              .buffer_size = 64 * 1024}};

@@ -135,6 +135,14 @@ static void shake(torus *t) {
 // -------------------------------------------------------------------------------------------------
 // Mixes
 
+static bool add_normals(bench_mix *mix) {
+    const limn_mesh *const mesh = &mix->mesh;
+    mix->control_normals = malloc(3 * (size_t)mesh->control_count * sizeof(float));
+    if (!mix->control_normals) return false;
+    limn_mesh_control_normals(mesh, mesh->controls, mix->control_normals);
+    return true;
+}
+
 static bool open_mix(bench_mix *mix, const char *name, const void *blob, size_t size) {
     limn_pack pack;
     const limn_result result = limn_pack_open(&pack, blob, size);
@@ -145,6 +153,7 @@ static bool open_mix(bench_mix *mix, const char *name, const void *blob, size_t 
     if (pack.mesh_count == 0) return false;
     snprintf(mix->name, sizeof mix->name, "%s", name);
     mix->mesh = limn_pack_mesh(&pack, 0);
+    if (mix->mesh.normals && !add_normals(mix)) return false;
     mix->patch_classes = malloc((mix->mesh.patch_count + 1) * sizeof *mix->patch_classes);
     for (uint32_t r = 0; r < mix->mesh.run_count && mix->patch_classes; r++) {
         const limn_file_run *const run = &mix->mesh.runs[r];
@@ -170,7 +179,7 @@ static bool bake_torus(bench_mix *mix, const char *name, const torus *t) {
                                  .position_count = t->point_count,
                                  .face_count = t->face_count,
                                  .face_indices = t->corners};
-    mix->baker = limn_baker_create(NULL);
+    mix->baker = limn_baker_create(&(limn_bake_desc){.normals = LIMN_NORMALS_EXACT});
     return bake_mix(mix, name,
                     mix->baker ? limn_baker_add_mesh(mix->baker, &mesh) : LIMN_BAKE_MEMORY);
 }
@@ -207,13 +216,15 @@ bool bench_mix_file(bench_mix *mix, const char *path) {
         fprintf(stderr, "limn-bench: %s\n", error);
         return false;
     }
-    mix->baker = limn_baker_create(&(limn_bake_desc){.repair = LIMN_REPAIR_ALL});
+    mix->baker = limn_baker_create(
+        &(limn_bake_desc){.normals = LIMN_NORMALS_EXACT, .repair = LIMN_REPAIR_ALL});
     return bake_mix(mix, name,
                     mix->baker ? limn_baker_add_file(mix->baker, path) : LIMN_BAKE_MEMORY);
 }
 
 void bench_mix_destroy(bench_mix *mix) {
     free(mix->patch_classes);
+    free(mix->control_normals);
     if (mix->baker) limn_baker_destroy(mix->baker);
     if (mix->file.bytes) limni_blob_file_close(&mix->file);
 }

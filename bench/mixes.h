@@ -12,6 +12,7 @@ typedef struct bench_mix {
     char name[32];
     limn_mesh mesh;
     uint32_t *patch_classes; ///< [patch_count] indices into mesh.classes
+    float *control_normals;  ///< of the bind pose; NULL: the mesh has no normals
     limn_baker *baker;       ///< owns the blob, if it was baked here
     limni_blob_file file;    ///< if it was not
 } bench_mix;
@@ -22,7 +23,7 @@ bool bench_mix_regular(bench_mix *mix, uint32_t side);
 /// The same torus with edges flipped at random, valences 4 to 9: neighbours rarely share a class.
 bool bench_mix_worst(bench_mix *mix, uint32_t side);
 
-/// A mesh that is baked first, or the first one of a .limn file.
+/// A mesh that is baked first, with normals, or the first one of a .limn file.
 bool bench_mix_file(bench_mix *mix, const char *path);
 
 void bench_mix_destroy(bench_mix *mix);
