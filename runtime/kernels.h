@@ -20,8 +20,10 @@
 /// Before a loop over the vectors of a tile: unrolled early, so that its arrays become registers.
 #if defined(__GNUC__) && !defined(__clang__)
 #define LIMNI_UNROLL _Pragma("GCC unroll 8")
+#define LIMNI_UNROLL_TWICE _Pragma("GCC unroll 2")
 #else
 #define LIMNI_UNROLL
+#define LIMNI_UNROLL_TWICE
 #endif
 
 /// The largest padded row count of any domain.

@@ -54,7 +54,8 @@ static inline void clear_tile(tile *t, int count) {
 
 /// Adds terms to rows `columns`, the table from the first of these rows on.
 static inline void add_to_tile(tile *t, int count, const float *columns, terms of) {
-    _Pragma("GCC unroll 2") for (const term *k = of.begin; k != of.end; k++) {
+    LIMNI_UNROLL_TWICE
+    for (const term *k = of.begin; k != of.end; k++) {
         const float *const column = columns + k->column;
         const lanes x = lanes_splat(k->point[0]);
         const lanes y = lanes_splat(k->point[1]);
