@@ -122,6 +122,58 @@ typedef struct limn_domain {
 const limn_domain *limn_domain_get(limn_domain_kind kind);
 
 // -------------------------------------------------------------------------------------------------
+// Templates
+//
+// A patch whose edges are coarser than itself is sewn to its neighbours by its indices alone: there is
+// a template for every level of a patch and of each of its edges, whatever the difference. Templates
+// depend on the domain only; upload them once.
+
+typedef enum limn_topology {
+    LIMN_TOPOLOGY_TRIANGLES,
+    LIMN_TOPOLOGY_STRIPS ///< triangle strips, with LIMN_RESTART between them
+} limn_topology;
+
+#define LIMN_RESTART 0xffffu         ///< primitive restart; 0xff where indices are bytes
+#define LIMN_TEMPLATE_INDEX_MAX 1024 ///< indices of any template
+#define LIMN_EXPANDED_STRIP_MAX 333  ///< rows of limn_expanded_strip()
+
+/// Where the indices of a template are among those of all.
+typedef struct limn_template {
+    uint32_t first_index, index_count;
+} limn_template;
+
+/// How many templates there are: 225 for triangles. Never fails; any thread.
+uint32_t limn_template_count(const limn_domain *domain);
+
+/// The template of a patch of level `level` <= LIMN_LEVEL_MAX. Never fails; any thread.
+///
+/// edge_levels  [domain->corner_count], each at most `level`; edge e runs from corner e to e + 1
+uint32_t limn_template_find(const limn_domain *domain, uint32_t level,
+                            const uint8_t edge_levels[LIMN_CORNER_MAX]);
+
+/// Writes the indices of one template: rows of the patch, counter-clockwise triangles of which none
+/// is degenerate, and on each edge no rows but those of the edge's level. Does not allocate, never
+/// fails; any thread. Returns the number of indices.
+uint32_t limn_template_write(const limn_domain *domain, uint32_t index, limn_topology topology,
+                             uint16_t indices[LIMN_TEMPLATE_INDEX_MAX]);
+
+/// Writes all templates, one behind the other, in milliseconds. Does not allocate, never fails; any
+/// thread. Returns the number of indices: with NULL, how many there must be room for.
+///
+/// index_size  bytes of an index, 1 or 2
+/// indices     out, or NULL
+/// templates   out: [limn_template_count()], or NULL
+uint32_t limn_templates_write(const limn_domain *domain, limn_topology topology,
+                              uint32_t index_size, void *indices, limn_template *templates);
+
+/// The rows of a whole patch in the order of one strip without indices, for hardware that has none:
+/// row of cells by row of cells, from right to left (Brickhill), joined by degenerate triangles. Does
+/// not allocate, never fails; any thread. Returns the number of rows.
+///
+/// rows  out: [LIMN_EXPANDED_STRIP_MAX]
+uint32_t limn_expanded_strip(const limn_domain *domain, uint32_t level, uint16_t *rows);
+
+// -------------------------------------------------------------------------------------------------
 // Kernels
 
 /// Instruction sets, as bits of a mask.
