@@ -16,11 +16,14 @@ static const char help[] =
     "                 "
     "meshes[].{name,faces,control_points,patches,patch_size,bytes_per_face,normals_size,\n"
     "                           class_count}\n"
-    "                 classes[].{control_points,table_size,use_count,valences,boundary_corners}\n"
+    "                 "
+    "classes[].{control_points,pairs,table_size,use_count,valences,boundary_corners}\n"
     "  -h, --help   this text\n\n"
     "Sizes are in bytes. patch_size is what a mesh stores for its patches (runs, faces, control\n"
     "indices and slots); the tables are shared by all meshes and counted in table_size.\n"
-    "A class is one topology of a face's surroundings; its use_count is in faces.\n";
+    "A class is one topology of a face's surroundings; its use_count is in faces, its pairs are "
+    "of\n"
+    "control points, if it is its own mirror image.\n";
 
 static uint64_t table_size(const limn_file_class *class) {
     return limn_file_table_size(class) * sizeof(float);
@@ -113,6 +116,7 @@ static json_t *describe_class(const limn_pack *pack, uint32_t class_index) {
             json_array_append_new(corners, json_integer(corner));
     }
     json_object_set_new(object, "control_points", json_integer(class->control_count));
+    json_object_set_new(object, "pairs", json_integer(class->pair_count));
     json_object_set_new(object, "table_size", json_size(table_size(class)));
     json_object_set_new(object, "use_count", json_size(use_count(pack, class_index)));
     json_object_set_new(object, "valences", valences);

@@ -32,6 +32,13 @@ extern const limn_domain limni_domain_triangle;
 extern const limni_layout limni_layout_triangle;
 extern const limni_layout limni_layout_triangle_mirrored;
 
+/// Along an edge of that level, the place that a row at grid step `t` moves to: the nearest that the
+/// edge keeps; of two as near, the one towards the start.
+static inline uint32_t limni_kept_place(uint32_t t, uint32_t edge_level) {
+    const uint32_t step = LIMN_GRID_SIZE >> edge_level, behind = t % step;
+    return 2 * behind <= step ? t - behind : t - behind + step;
+}
+
 /// The layout of the tables of a class; `pair_count` is that of its record.
 const limni_layout *limni_layout_get(limn_domain_kind kind, uint32_t pair_count);
 

@@ -46,6 +46,10 @@ typedef struct limni_run {
         table_stride;   ///< floats from the positions' table to the tangents', and on to the second
     uint32_t slot_size; ///< 1 or 2
     uint32_t patch_count;
+    const limn_plan_patch
+        *items;           ///< [patch_count] what is wanted of which patches, from one class;
+                          ///< NULL: consecutive patches at the level of the target
+    uint32_t first_patch; ///< of the class, where there are items
 } limni_run;
 
 /// Where control points come from.
@@ -65,9 +69,8 @@ typedef struct limni_target {
     limn_normal_format normal_format;
     float box_min[3], box_scale[3]; ///< packed positions are (position - min) * scale
     bool streaming;
-    uint32_t level;
-    uint32_t row_count;    ///< rows that are written
-    uint32_t corner_count; ///< of the domain
+    uint32_t level; ///< of patches without items
+    const limn_domain *domain;
 } limni_target;
 
 /// A control point and those around it, with the masks of its two limit tangents.

@@ -4,7 +4,7 @@
  * follow from the domain: a row on an edge that is coarser than the patch moves to the nearest row
  * that the edge keeps, and triangles that collapse are left out.
  */
-#include "limn/limn.h"
+#include "domain.h"
 #include "require.h"
 
 #include <string.h>
@@ -17,12 +17,6 @@ typedef struct triangulation {
     uint32_t count;
 } triangulation;
 
-/// The row along an edge that a row at `t` moves to; of two as near, the one towards the start.
-static uint32_t kept_place(uint32_t t, uint32_t edge_level) {
-    const uint32_t step = LIMN_GRID_SIZE >> edge_level, behind = t % step;
-    return 2 * behind <= step ? t - behind : t - behind + step;
-}
-
 /// Where each row of the domain goes.
 static void move_rows(const limn_domain *domain, const uint8_t edge_levels[LIMN_CORNER_MAX],
                       uint16_t *moved) {
@@ -31,7 +25,7 @@ static void move_rows(const limn_domain *domain, const uint8_t edge_levels[LIMN_
     for (uint32_t edge = 0; edge < domain->corner_count; edge++) {
         const uint16_t *const rows = domain->edge_rows[edge];
         for (uint32_t t = 1; t < LIMN_GRID_SIZE; t++)
-            moved[rows[t]] = rows[kept_place(t, edge_levels[edge])];
+            moved[rows[t]] = rows[limni_kept_place(t, edge_levels[edge])];
     }
 }
 

@@ -4,6 +4,7 @@
  * sums.h, formats.h and stores.h are its three steps; between them, everything stays in L1.
  */
 #include "control_normals_body.h"
+#include "morph.h"
 #include "stores.h"
 
 #if defined(__FAST_MATH__)
@@ -55,10 +56,12 @@ static inline void gather_pairs(const uint32_t *indices, size_t count, size_t pa
         set_term(out++, gather_point(controls, indices[slot], origin), column += row_stride);
 }
 
-/// What lies behind the last row is read but not used.
-static inline void clear_padding(vectors *rows, size_t row_count) {
-    for (int axis = 0; axis < 3; axis++)
-        lanes_store(&rows->axes[axis][row_count], lanes_zero());
+/// What lies behind the last row of any level is read but not used.
+static inline void clear_padding(const limn_domain *domain, vectors *rows) {
+    for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
+        for (int axis = 0; axis < 3; axis++)
+            lanes_store(&rows->axes[axis][domain->row_counts[level]], lanes_zero());
+    }
 }
 
 /// What one patch is between summing and storing.
@@ -97,38 +100,50 @@ static inline void set_corner_normals(const uint32_t *corners, size_t corner_cou
     }
 }
 
-/// Unit normals from tangents, in place of the first of them, as they will be written.
-static inline void make_normals(const limni_target *target, const uint32_t *corners,
-                                const float *control_normals, scratch *rows) {
-    find_normals(&rows->across, target->row_count, &rows->along);
-    set_corner_normals(corners, target->corner_count, control_normals, &rows->along);
-    switch (target->normal_format) {
+static inline void pack_normals(limn_normal_format format, size_t row_count, vectors *normals) {
+    switch (format) {
     case LIMN_NORMAL_OCT16X2:
-        pack_octahedral(target->row_count, 16, 32767.0f, &rows->along);
+        pack_octahedral(row_count, 16, 32767.0f, normals);
         break;
     case LIMN_NORMAL_OCT8X2:
-        pack_octahedral(target->row_count, 8, 127.0f, &rows->along);
+        pack_octahedral(row_count, 8, 127.0f, normals);
         break;
     case LIMN_NORMAL_SNORM8X4:
-        pack_snorm8x4(target->row_count, &rows->along);
+        pack_snorm8x4(row_count, normals);
         break;
     default:
         break;
     }
 }
 
-/// corners  control points
+/// What is stored of a patch.
+typedef struct wanted {
+    const limn_plan_patch *item;  ///< NULL: all rows where they are
+    const uint32_t *corners;      ///< control points
+    const float *control_normals; ///< NULL: no normals
+    size_t row_count;
+} wanted;
+
+/// Unit normals from tangents, in place of the first of them, as they will be written.
+static inline void make_normals(const limni_target *target, const wanted *what, scratch *rows) {
+    find_normals(&rows->across, what->row_count, &rows->along);
+    set_corner_normals(what->corners, target->domain->corner_count, what->control_normals,
+                       &rows->along);
+    if (what->item) morph_patch(target->domain, what->item, true, &rows->along);
+    pack_normals(target->normal_format, what->row_count, &rows->along);
+}
+
 static LIMNI_NOINLINE void store_patch(const limni_target *target, const parts *to,
-                                       const uint32_t *corners, const float *control_normals,
-                                       scratch *rows) {
+                                       const wanted *what, scratch *rows) {
     const float *const planes = rows->positions.axes[0];
+    if (what->item) morph_patch(target->domain, what->item, false, &rows->positions);
     if (target->position_format == LIMN_POSITION_UNORM16X4)
-        pack_unorm16x4(target, target->row_count, &rows->positions);
-    if (control_normals) make_normals(target, corners, control_normals, rows);
+        pack_unorm16x4(target, what->row_count, &rows->positions);
+    if (what->control_normals) make_normals(target, what, rows);
     if (target->streaming) {
-        stream_parts(to, planes, target->row_count);
+        stream_parts(to, planes, what->row_count);
     } else {
-        store_parts(to, planes, 0, target->row_count);
+        store_parts(to, planes, 0, what->row_count);
     }
 }
 
@@ -181,20 +196,27 @@ static inline void evaluate_patches(const limni_run *run, uint32_t slot_size, te
                .even = {folded, folded + (count - 1 - pair_count)},
                .odd = {folded + (count - 1 - pair_count), folded + (count - 1)}};
     scratch rows;
-    clear_padding(&rows.positions, target->row_count);
-    clear_padding(&rows.along, target->row_count);
-    clear_padding(&rows.across, target->row_count);
+    clear_padding(target->domain, &rows.positions);
+    clear_padding(target->domain, &rows.along);
+    clear_padding(target->domain, &rows.across);
 
-    const uint32_t *indices = run->indices;
-    const unsigned char *slots = run->slots;
     for (size_t i = 0; i < run->patch_count; i++) {
+        const limn_plan_patch *const item = run->items ? &run->items[i] : NULL;
+        const uint32_t level = item ? item->level : target->level;
+        const size_t at = item ? item->patch - run->first_patch : i;
+        const uint32_t *const indices = run->indices + at * count;
+        const unsigned char *const slots =
+            (const unsigned char *)run->slots + at * count * slot_size;
+        const wanted what = {.item = item,
+                             .corners = indices,
+                             .control_normals = from->normals,
+                             .row_count = target->domain->row_counts[level]};
         gather(indices, slots, slot_size, count, row_stride, controls, origin, ascending);
-        if (pair_count) gather_pairs(indices, count, pair_count, row_stride, controls, folded);
-        sum_patch(&p, run, from, controls + 3 * (size_t)indices[0], target->level, &rows);
-        to.first = i * target->row_count;
-        store_patch(target, &to, indices, from->normals, &rows);
-        indices += count;
-        slots += count * slot_size;
+        if (run->layout->pair_counts[level])
+            gather_pairs(indices, count, pair_count, row_stride, controls, folded);
+        sum_patch(&p, run, from, controls + 3 * (size_t)indices[0], level, &rows);
+        to.first = item ? item->first_vertex : i * what.row_count;
+        store_patch(target, &to, &what, &rows);
     }
 }
 

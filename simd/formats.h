@@ -50,10 +50,11 @@ static inline void pack_unorm16x4(const limni_target *target, size_t row_count, 
 /// 1 / sqrt(a) for normal a, within 3 units in the last place: a guess from the bits (Lomont, "Fast
 /// inverse square root", 2003) and three steps of Newton's iteration. Cheaper than a root and a
 /// division, and the same everywhere.
+enum { INVERSE_ROOT_BITS = 0x5f375a86, INVERSE_ROOT_STEPS = 3 };
 static inline lanes inverse_root(lanes a) {
     const lanes half = lanes_multiply(a, lanes_splat(0.5f)), three_halves = lanes_splat(1.5f);
-    lanes root = lanes_less_half_bits(0x5f375a86u, a);
-    for (int step = 0; step < 3; step++) {
+    lanes root = lanes_less_half_bits(INVERSE_ROOT_BITS, a);
+    for (int step = 0; step < INVERSE_ROOT_STEPS; step++) {
         const lanes square = lanes_multiply(root, root);
         root = lanes_multiply(root, lanes_subtract(three_halves, lanes_multiply(half, square)));
     }

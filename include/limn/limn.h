@@ -279,32 +279,128 @@ void limn_mesh_corners(const limn_mesh *mesh, uint32_t patch_index,
 // -------------------------------------------------------------------------------------------------
 // Plans and evaluation
 
+/// One patch of a plan with levels of detail. The level of an edge is a real number l between 0 and 4,
+/// which follows from the edge alone; n = ceil(l) levels are drawn of it, and what is new at level n
+/// is on its way from the middle of its parents (weight 0) to its place (1): at l - (n - 1). A patch
+/// has the highest level of its edges, and its weight.
+typedef struct limn_plan_patch {
+    uint32_t patch;          ///< of the mesh
+    uint32_t first_vertex;   ///< in the output: the base vertex to draw its template with
+    uint16_t template_index; ///< see limn_template_find()
+    uint8_t level;
+    uint8_t edge_levels[LIMN_CORNER_MAX]; ///< n, by edges of the patch
+    float edge_morphs[LIMN_CORNER_MAX];   ///< weights
+    float morph;
+} limn_plan_patch;
+
+/// A draw, as glMultiDrawElementsIndirect() reads it.
+typedef struct limn_draw {
+    uint32_t index_count, instance_count, first_index;
+    int32_t base_vertex;
+    uint32_t base_instance; ///< index of the patch in the plan
+} limn_draw;
+
 /// One frame's decisions: which patches are drawn, at which level, and where their vertices go.
 /// Patch p writes domain->row_counts[level] vertices from limn_plan_first_vertex() on.
 typedef struct limn_plan {
     const limn_mesh *mesh; ///< must outlive the plan
-    uint32_t level;
+    uint32_t level;        ///< of uniform plans; of others the highest
     uint32_t patch_count;
     uint64_t vertex_count; ///< of all patches: what the output must hold
     uint64_t index_count;  ///< of all patches: three per triangle
+    const limn_plan_patch
+        *patches;           ///< [patch_count] in the order of the mesh; NULL: a uniform plan
+    const limn_draw *draws; ///< [patch_count] ordered by template; NULL: a uniform plan
 } limn_plan;
 
 /// Every patch of the mesh at one level, 0 to LIMN_LEVEL_MAX. Does not allocate; never fails; any
 /// thread.
 limn_plan limn_plan_uniform(const limn_mesh *mesh, uint32_t level);
 
+/// Where a frame is seen from. limn_view_perspective() and limn_view_orthographic() make views.
+typedef struct limn_view {
+    float eye[3];  ///< perspective: where the camera is
+    float pixels;  ///< the size of a unit of length: at distance 1 (perspective), or everywhere
+    float nearest; ///< perspective, above 0: what is nearer counts as this far away
+    bool orthographic;
+    uint32_t plane_count; ///< 0 to 6; 0: nothing is outside
+    float planes[6][4];   ///< a point p is inside where p x + q y + r z + s >= 0 for all
+} limn_view;
+
+#define LIMN_VIEW_MAX 4
+
+/// A view from `eye` towards `target`.
+///
+/// up            any direction that is not the line of sight
+/// fov           vertical angle of view in radians, 0 to pi
+/// width,height  of the viewport in pixels
+/// near_plane,
+/// far_plane     distances of the planes that bound it, 0 < near_plane < far_plane
+limn_view limn_view_perspective(const float eye[3], const float target[3], const float up[3],
+                                float fov, float width, float height, float near_plane,
+                                float far_plane);
+
+/// The same without perspective: `extent` is the height of what is seen, in model units, and
+/// `near_plane` may be negative.
+limn_view limn_view_orthographic(const float eye[3], const float target[3], const float up[3],
+                                 float extent, float width, float height, float near_plane,
+                                 float far_plane);
+
+/// How levels are chosen. Zero means default.
+typedef enum limn_lod {
+    LIMN_LOD_LENGTH, ///< so that steps along an edge are `pixels` long on the screen
+    LIMN_LOD_UNIFORM ///< `level` everywhere
+} limn_lod;
+
+typedef struct limn_lod_desc {
+    limn_lod lod;
+    float level;     ///< LIMN_LOD_UNIFORM: a real number
+    float pixels;    ///< LIMN_LOD_LENGTH: default 8
+    float bias;      ///< added to all levels
+    float min_level; ///< 0 to LIMN_LEVEL_MAX
+    float max_level; ///< the same; default LIMN_LEVEL_MAX
+    uint64_t
+        vertex_budget; ///< levels are lowered, all by the same amount, until the vertices are no
+                       ///< more, or until all are at `min_level`; 0: any number
+    bool no_morph;     ///< all weights are 1
+    /// The caller's own test: false leaves a patch out. Called from the thread that plans.
+    bool (*keep_fn)(void *user, uint32_t patch);
+    void *keep_user;
+} limn_lod_desc;
+
+/// Bytes of memory that limn_plan_build() needs for a mesh.
+size_t limn_plan_size(const limn_mesh *mesh);
+
+/// Plans a frame: levels for all edges, and of the patches that may be seen in any view, their
+/// templates, weights and places. A patch is left out where all its control points are outside of
+/// one plane of every view: the surface lies within their convex hull, so this is exact under
+/// animation too. The result is the same for whichever thread, and depends on nothing else. Does
+/// not allocate, never fails; any thread, with memory of its own.
+///
+/// controls   [mesh->control_count][3] floats, model units: those that will be evaluated
+/// views      [view_count] 1 to LIMN_VIEW_MAX, in the space of the control points
+/// desc       NULL: all defaults
+/// templates  [limn_template_count()] as uploaded, for the draws; NULL: no draws are made
+/// memory     [limn_plan_size()] bytes, aligned to 8; the plan points into it
+limn_plan limn_plan_build(const limn_mesh *mesh, const float *controls, const limn_view *views,
+                          uint32_t view_count, const limn_lod_desc *desc,
+                          const limn_template *templates, void *memory);
+
 /// Index of the first vertex of a patch in the output: the base vertex to draw its indices with.
+/// `patch_index` < plan->patch_count counts the patches of the plan.
 uint64_t limn_plan_first_vertex(const limn_plan *plan, uint32_t patch_index);
 
-/// How a position is written. Packed, each coordinate is 65535 (x - min) / (max - min), rounded to the
-/// nearest and clamped to the box; neighbours still agree in every bit.
+/// How a position is written. Packed, each coordinate is q = 65535 (x - min) / (max - min), rounded to
+/// the nearest and clamped to the box, so x = min + q / 65535 (max - min) within half a step;
+/// neighbours still agree in every bit.
 typedef enum limn_position_format {
     LIMN_POSITION_FLOAT3,   ///< 12 bytes
     LIMN_POSITION_UNORM16X4 ///< 8 bytes: x, y, z, and 65535
 } limn_position_format;
 
 /// How a unit normal is written. Signed integers are rounded to the nearest, 1 being 127 or 32767.
-/// Octahedral: n / (|x| + |y| + |z|), and where z < 0, x becomes (1 - |y|) sign(x), and y likewise.
+/// Octahedral, x first: n / (|x| + |y| + |z|), and where z < 0, x becomes (1 - |y|) sign(x), and y
+/// likewise. To unpack x and y: z = 1 - |x| - |y|; where z < 0, the same exchange; then normalise.
 typedef enum limn_normal_format {
     LIMN_NORMAL_FLOAT3,   ///< 12 bytes
     LIMN_NORMAL_OCT16X2,  ///< 4 bytes: octahedral
@@ -325,7 +421,7 @@ typedef struct limn_output {
                    ///< a stream of its own, or inside the vertices, with the same stride; NULL: no
                    ///< normals
     uint32_t normal_stride; ///< bytes from normal to normal, a multiple of the alignment; 0 means
-                            ///< tightly packed
+                            ///< tightly packed, so inside the vertices it is never 0
     limn_normal_format normal_format;
     const float
         *control_normals; ///< [mesh->control_count][3] from limn_mesh_control_normals(), for

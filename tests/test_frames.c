@@ -1,0 +1,426 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Whole frames with levels of detail: over many meshes and random cameras, what would be drawn of a
+ * closed mesh is a closed surface by bits, positions and normals; rows are where the definition of
+ * morphing puts them; what is culled cannot be seen; budgets are kept; splits change nothing.
+ */
+#include "check.h"
+#include "limn/bake.h"
+#include "limn/limn.h"
+#include "mesh_files.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { FLOATS = 6, FRAMES_PER_MESH = 24, FACES_MAX = 4000 };
+
+static const limn_domain *domain;
+static uint16_t indices[100000];
+static limn_template templates[225];
+static unsigned long frame_count, mesh_count, culled_count, patch_total;
+
+static uint64_t random_state = 1;
+
+static uint32_t next_random(void) {
+    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
+    return (uint32_t)(random_state >> 33);
+}
+
+static float random_float(float low, float high) {
+    return low + (high - low) * (float)next_random() / 2147483648.0f;
+}
+
+typedef struct subject {
+    limn_baker *baker;
+    limn_pack pack;
+    limn_mesh mesh;
+    float *control_normals;
+    void *memory;
+    float (*vertices)[FLOATS]; ///< room for all patches at level 4
+    float diagonal;
+} subject;
+
+static bool load(subject *s, const char *path) {
+    const void *blob;
+    size_t size;
+    *s = (subject){.baker = limn_baker_create(&(limn_bake_desc){.normals = LIMN_NORMALS_EXACT})};
+    if (limn_baker_add_file(s->baker, path) != LIMN_BAKE_OK) return false;
+    CHECK_EQUAL(limn_baker_finish(s->baker, &blob, &size), LIMN_BAKE_OK);
+    CHECK_EQUAL(limn_pack_open(&s->pack, blob, size), LIMN_OK);
+    s->mesh = limn_pack_mesh(&s->pack, 0);
+    if (s->mesh.patch_count > FACES_MAX) return false;
+    s->control_normals = malloc(s->mesh.control_count * 3 * sizeof(float));
+    s->memory = malloc(limn_plan_size(&s->mesh));
+    s->vertices = malloc((size_t)s->mesh.patch_count * 153 * sizeof *s->vertices);
+    if (!s->control_normals || !s->memory || !s->vertices) abort();
+    limn_mesh_control_normals(&s->mesh, s->mesh.controls, s->control_normals);
+    for (int axis = 0; axis < 3; axis++) {
+        const float size_of_axis = s->mesh.bounds_max[axis] - s->mesh.bounds_min[axis];
+        s->diagonal = hypotf(s->diagonal, size_of_axis);
+    }
+    return true;
+}
+
+static void unload(subject *s) {
+    free(s->control_normals);
+    free(s->memory);
+    free(s->vertices);
+    limn_baker_destroy(s->baker);
+}
+
+static limn_output output_of(subject *s) {
+    return (limn_output){.vertices = s->vertices,
+                         .stride = sizeof *s->vertices,
+                         .normals = s->vertices[0] + 3,
+                         .normal_stride = sizeof *s->vertices,
+                         .control_normals = s->control_normals};
+}
+
+static void evaluate(subject *s, const limn_plan *plan) {
+    const limn_output output = output_of(s);
+    limn_evaluate(plan, s->mesh.controls, 0, plan->patch_count, &output);
+}
+
+// ---- Closed by bits
+
+static uint64_t hash_vertex(const float *vertex) {
+    uint32_t words[FLOATS];
+    uint64_t hash = 0;
+    memcpy(words, vertex, sizeof words);
+    for (int w = 0; w < FLOATS; w++)
+        hash = (hash ^ words[w]) * 0x9e3779b97f4a7c15u, hash ^= hash >> 29;
+    return hash;
+}
+
+static uint64_t hash_edge(uint64_t a, uint64_t b) {
+    const uint64_t mixed = (a * 0xff51afd7ed558ccdu) ^ (b + 0x9e3779b97f4a7c15u);
+    return (mixed ^ mixed >> 31) * 0xc4ceb9fe1a85ec53u;
+}
+
+/// Adds what one patch draws: 0 in all if every edge is drawn as often in one direction as in the
+/// other, with the same bits at both ends.
+static uint64_t sum_edges(const float (*vertices)[FLOATS], const uint16_t *triangles,
+                          uint32_t index_count) {
+    uint64_t sum = 0;
+    for (uint32_t i = 0; i < index_count; i += 3) {
+        uint64_t corners[3];
+        for (uint32_t c = 0; c < 3; c++)
+            corners[c] = hash_vertex(vertices[triangles[i + c]]);
+        for (uint32_t c = 0; c < 3; c++)
+            sum += hash_edge(corners[c], corners[(c + 1) % 3]) -
+                   hash_edge(corners[(c + 1) % 3], corners[c]);
+    }
+    return sum;
+}
+
+/// Through the draws, as a GPU would.
+static uint64_t sum_frame(const subject *s, const limn_plan *plan) {
+    uint64_t sum = 0;
+    uint64_t index_count = 0;
+    for (uint32_t d = 0; d < plan->patch_count; d++) {
+        const limn_draw *const draw = &plan->draws[d];
+        sum += sum_edges((const float(*)[FLOATS])s->vertices + draw->base_vertex,
+                         indices + draw->first_index, draw->index_count);
+        index_count += draw->index_count;
+        CHECK(d == 0 || plan->patches[draw[-1].base_instance].template_index <=
+                            plan->patches[draw->base_instance].template_index);
+    }
+    CHECK_EQUAL(index_count, plan->index_count);
+    return sum;
+}
+
+static bool is_closed(subject *s) {
+    const limn_plan plan = limn_plan_uniform(&s->mesh, 0);
+    uint64_t sum = 0;
+    evaluate(s, &plan);
+    for (uint32_t p = 0; p < plan.patch_count; p++)
+        sum += sum_edges((const float(*)[FLOATS])s->vertices + 3 * p, domain->indices[0], 3);
+    return sum == 0;
+}
+
+// ---- Views
+
+static limn_view random_view(const subject *s) {
+    float eye[3], target[3];
+    const float up[3] = {0.1f, 1, 0.2f}, distance = s->diagonal * random_float(0.05f, 3);
+    for (int axis = 0; axis < 3; axis++) {
+        const float low = s->mesh.bounds_min[axis], high = s->mesh.bounds_max[axis];
+        target[axis] = random_float(low, high);
+        eye[axis] = (low + high) / 2 + random_float(-1, 1) * distance;
+    }
+    if (next_random() % 4 == 0)
+        return limn_view_orthographic(eye, target, up, s->diagonal * random_float(0.2f, 2), 1280,
+                                      720, -s->diagonal, 9 * s->diagonal);
+    return limn_view_perspective(eye, target, up, random_float(0.2f, 2), 1280, 720,
+                                 s->diagonal / 1000, 9 * s->diagonal);
+}
+
+static limn_lod_desc random_desc(void) {
+    limn_lod_desc desc = {.pixels = random_float(2, 60)};
+    if (next_random() % 3 == 0) {
+        desc.lod = LIMN_LOD_UNIFORM;
+        desc.level = random_float(0, 4.5f);
+    }
+    if (next_random() % 4 == 0) desc.min_level = random_float(0, 2);
+    if (next_random() % 4 == 0) desc.max_level = random_float(2, 4);
+    if (next_random() % 4 == 0) desc.bias = random_float(-1, 1);
+    desc.no_morph = next_random() % 8 == 0;
+    return desc;
+}
+
+/// Any level on any edge: what no camera would ask for.
+static void scramble(const subject *s, limn_plan *plan) {
+    limn_plan_patch *const patches = s->memory;
+    const uint32_t salt = next_random();
+    plan->vertex_count = 0;
+    plan->level = 0;
+    for (uint32_t p = 0; p < plan->patch_count; p++) {
+        limn_plan_patch *const item = &patches[p];
+        uint32_t corners[LIMN_CORNER_MAX];
+        float highest = 0;
+        limn_mesh_corners(plan->mesh, item->patch, corners);
+        for (uint32_t e = 0; e < 3; e++) {
+            const uint64_t a = corners[e], b = corners[(e + 1) % 3];
+            const uint64_t hash = hash_edge(a < b ? a : b, (a < b ? b : a) + salt);
+            const float level = (float)(hash >> 40) / 16777216.0f * 4;
+            highest = level > highest ? level : highest;
+            item->edge_levels[e] = (uint8_t)ceilf(level);
+            item->edge_morphs[e] = level > 0 ? level - ceilf(level) + 1 : 1;
+        }
+        item->level = (uint8_t)ceilf(highest);
+        item->morph = highest > 0 ? highest - ceilf(highest) + 1 : 1;
+        item->template_index = (uint16_t)limn_template_find(domain, item->level, item->edge_levels);
+        item->first_vertex = (uint32_t)plan->vertex_count;
+        plan->vertex_count += domain->row_counts[item->level];
+    }
+}
+
+/// Draws as limn_plan_build() would have made them for the scrambled patches, in any order.
+static uint64_t sum_scrambled(const subject *s, const limn_plan *plan) {
+    uint64_t sum = 0;
+    for (uint32_t p = 0; p < plan->patch_count; p++) {
+        const limn_plan_patch *const item = &plan->patches[p];
+        const limn_template *const template = &templates[item->template_index];
+        sum += sum_edges((const float(*)[FLOATS])s->vertices + item->first_vertex,
+                         indices + template->first_index, template->index_count);
+    }
+    return sum;
+}
+
+// ---- Morphing, by its definition
+
+typedef double point[3];
+
+static bool is_new(const limn_plan_patch *item, uint32_t row, float *weight, bool *skipped) {
+    const limn_row r = domain->rows[row];
+    *skipped = false;
+    for (uint32_t e = 0; e < 3 && r.level > 0; e++) {
+        if (!(r.edges >> e & 1)) continue;
+        *weight = item->edge_morphs[e];
+        *skipped = r.level > item->edge_levels[e];
+        return r.level == item->edge_levels[e];
+    }
+    *weight = item->morph;
+    return r.level > 0 && r.level == item->level;
+}
+
+/// Where a row is displayed: a skipped one with the nearest that its edge keeps.
+static void display(const limn_plan_patch *item, const float (*finest)[FLOATS], uint32_t row,
+                    point where) {
+    float weight;
+    bool skipped;
+    const bool moves = is_new(item, row, &weight, &skipped);
+    if (skipped) {
+        for (uint32_t e = 0; e < 3; e++) {
+            const uint32_t step = LIMN_GRID_SIZE >> item->edge_levels[e];
+            for (uint32_t t = 1; t < LIMN_GRID_SIZE; t++) {
+                if (domain->edge_rows[e][t] != row) continue;
+                const uint32_t behind = t % step;
+                const uint32_t kept = 2 * behind <= step ? t - behind : t + step - behind;
+                display(item, finest, domain->edge_rows[e][kept], where);
+            }
+        }
+        return;
+    }
+    for (int axis = 0; axis < 3; axis++)
+        where[axis] = (double)finest[row][axis];
+    if (!moves) return;
+    point a, b;
+    display(item, finest, domain->rows[row].parents[0], a);
+    display(item, finest, domain->rows[row].parents[1], b);
+    for (int axis = 0; axis < 3; axis++)
+        where[axis] = (1 - (double)weight) * (a[axis] + b[axis]) / 2 + (double)weight * where[axis];
+}
+
+static void check_morphs(subject *s, const limn_plan *plan) {
+    const limn_plan uniform = limn_plan_uniform(&s->mesh, LIMN_LEVEL_MAX);
+    float(*const finest)[FLOATS] = malloc((size_t)uniform.vertex_count * sizeof *finest);
+    limn_output output = output_of(s);
+    output.vertices = finest;
+    output.normals = finest[0] + 3;
+    limn_evaluate(&uniform, s->mesh.controls, 0, uniform.patch_count, &output);
+    double furthest = 0, shortest = 1, longest = 1;
+    for (uint32_t p = 0; p < plan->patch_count; p++) {
+        const limn_plan_patch *const item = &plan->patches[p];
+        for (uint32_t row = 0; row < domain->row_counts[item->level]; row++) {
+            const float *const vertex = s->vertices[item->first_vertex + row];
+            point where;
+            double square = 0;
+            display(item, (const float(*)[FLOATS])finest + (size_t)item->patch * 153, row, where);
+            for (int axis = 0; axis < 3; axis++) {
+                furthest = fmax(furthest, fabs((double)vertex[axis] - where[axis]));
+                square += (double)vertex[3 + axis] * (double)vertex[3 + axis];
+            }
+            shortest = fmin(shortest, square);
+            longest = fmax(longest, square);
+        }
+    }
+    CHECK(furthest < 1e-6 * (double)s->diagonal);
+    CHECK(shortest > 1 - 2e-6 && longest < 1 + 2e-6);
+    free(finest);
+}
+
+// ---- Culling, budgets, splits
+
+static bool is_outside(const limn_view *view, const float *point_of) {
+    for (uint32_t k = 0; k < view->plane_count; k++) {
+        const float *const plane = view->planes[k];
+        if (plane[0] * point_of[0] + plane[1] * point_of[1] + plane[2] * point_of[2] + plane[3] < 0)
+            return true;
+    }
+    return false;
+}
+
+/// No vertex of a patch that was left out lies inside of a view by more than rounding.
+static void check_culling(subject *s, const limn_view *views, uint32_t view_count) {
+    const limn_plan plan =
+        limn_plan_build(&s->mesh, s->mesh.controls, views, view_count, NULL, templates, s->memory);
+    const limn_plan all = limn_plan_uniform(&s->mesh, 2);
+    bool *const kept = calloc(s->mesh.patch_count, sizeof *kept);
+    for (uint32_t p = 0; p < plan.patch_count; p++)
+        kept[plan.patches[p].patch] = true;
+    evaluate(s, &all);
+    bool good = true;
+    for (uint64_t v = 0; v < all.vertex_count; v++) {
+        if (kept[v / 15]) continue;
+        for (uint32_t w = 0; w < view_count; w++) {
+            limn_view wider = views[w]; // by what rounding can do
+            for (uint32_t k = 0; k < wider.plane_count; k++)
+                wider.planes[k][3] -= 1e-5f * s->diagonal;
+            good &= is_outside(&wider, s->vertices[v]);
+        }
+    }
+    CHECK(good);
+    culled_count += s->mesh.patch_count - plan.patch_count;
+    patch_total += s->mesh.patch_count;
+    free(kept);
+}
+
+static void check_budget(subject *s, const limn_view *view) {
+    limn_lod_desc desc = {.pixels = 1};
+    const limn_plan full =
+        limn_plan_build(&s->mesh, s->mesh.controls, view, 1, &desc, templates, s->memory);
+    desc.vertex_budget = 3 * (uint64_t)full.patch_count + full.vertex_count / 3;
+    const limn_plan less =
+        limn_plan_build(&s->mesh, s->mesh.controls, view, 1, &desc, templates, s->memory);
+    CHECK(less.vertex_count <= desc.vertex_budget && less.patch_count == full.patch_count);
+    evaluate(s, &less);
+    CHECK(less.patch_count < s->mesh.patch_count || sum_frame(s, &less) == 0);
+}
+
+/// Any split of a plan, in any order, gives the same bytes.
+static void check_split(subject *s, const limn_plan *plan) {
+    const limn_output output = output_of(s);
+    const size_t size = (size_t)plan->vertex_count * sizeof *s->vertices;
+    void *const whole = malloc(size + 1);
+    memcpy(whole, s->vertices, size);
+    memset(s->vertices, 0, size);
+    for (uint32_t end = plan->patch_count; end > 0;) {
+        const uint32_t count = 1 + next_random() % 97, begin = end > count ? end - count : 0;
+        limn_evaluate(plan, s->mesh.controls, begin, end, &output);
+        end = begin;
+    }
+    CHECK(memcmp(whole, s->vertices, size) == 0);
+    free(whole);
+}
+
+static bool keep_even(void *user, uint32_t patch) {
+    ++*(uint32_t *)user;
+    return patch % 2 == 0;
+}
+
+static void check_hook(subject *s, limn_view view) {
+    uint32_t calls = 0;
+    view.plane_count = 0;
+    const limn_lod_desc desc = {.keep_fn = keep_even, .keep_user = &calls};
+    const limn_plan plan =
+        limn_plan_build(&s->mesh, s->mesh.controls, &view, 1, &desc, NULL, s->memory);
+    CHECK(calls == s->mesh.patch_count && plan.patch_count == (s->mesh.patch_count + 1) / 2);
+    CHECK(!plan.draws);
+}
+
+// ---- All frames
+
+static void test_frame(subject *s, int frame) {
+    limn_view views[2] = {random_view(s), random_view(s)};
+    const uint32_t view_count = frame % 2 ? 2 : 1;
+    if (frame % 8 == 0) check_culling(s, views, view_count);
+    if (frame % 8 == 1) check_budget(s, &views[0]);
+    if (frame % 8 == 2) check_hook(s, views[0]);
+    for (uint32_t v = 0; v < view_count; v++)
+        views[v].plane_count = 0; // what is left out leaves holes
+    const limn_lod_desc desc = random_desc();
+    const uint32_t isa = frame % 3 == 0 ? LIMN_ISA_SCALAR : LIMN_ISA_ALL;
+    s->mesh.kernels = limn_kernels_select(isa, (limn_family)(frame % 2));
+    limn_plan plan =
+        limn_plan_build(&s->mesh, s->mesh.controls, views, view_count, &desc, templates, s->memory);
+    CHECK_EQUAL(plan.patch_count, s->mesh.patch_count);
+    evaluate(s, &plan);
+    CHECK_EQUAL(sum_frame(s, &plan), 0);
+    scramble(s, &plan);
+    evaluate(s, &plan);
+    CHECK_EQUAL(sum_scrambled(s, &plan), 0);
+    if (frame == 3) check_morphs(s, &plan);
+    if (frame == 4) check_split(s, &plan);
+    frame_count++;
+}
+
+static void visit(const char *path) {
+    subject s;
+    if (load(&s, path) && is_closed(&s)) {
+        mesh_count++;
+        for (int frame = 0; frame < FRAMES_PER_MESH; frame++)
+            test_frame(&s, frame);
+    }
+    unload(&s);
+}
+
+/// This test must be able to fail: a weight that differs by one bit opens an edge.
+static void test_can_fail(const char *path) {
+    subject s;
+    if (!CHECK(load(&s, path) && is_closed(&s))) return;
+    limn_view view = random_view(&s);
+    view.plane_count = 0;
+    const limn_lod_desc desc = {.lod = LIMN_LOD_UNIFORM, .level = 2.5f};
+    const limn_plan plan =
+        limn_plan_build(&s.mesh, s.mesh.controls, &view, 1, &desc, templates, s.memory);
+    evaluate(&s, &plan);
+    CHECK_EQUAL(sum_frame(&s, &plan), 0);
+    ((limn_plan_patch *)s.memory)[0].edge_morphs[1] = nextafterf(0.5f, 1);
+    evaluate(&s, &plan);
+    CHECK(sum_frame(&s, &plan) != 0);
+    unload(&s);
+}
+
+int main(void) {
+    char path[4096];
+    domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE);
+    limn_templates_write(domain, LIMN_TOPOLOGY_TRIANGLES, 2, indices, templates);
+    CHECK(mesh_files_visit(visit) > 0);
+    snprintf(path, sizeof path, "%s/imp.obj", getenv("LIMN_ASSETS"));
+    test_can_fail(path);
+    printf("%lu frames of %lu closed meshes; %lu of %lu patches culled\n", frame_count, mesh_count,
+           culled_count, patch_total);
+    CHECK(culled_count > 0);
+    return check_report();
+}
