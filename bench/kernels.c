@@ -584,13 +584,17 @@ int bench_kernels(int argc, char **argv) {
                              .rounds = 25,
                              .sample_seconds = 1e-3,
                              .buffer_size = 64 * 1024}};
-    for (int option; (option = getopt_long(argc, argv, "h", names, NULL)) != -1;) {
+    int which = 0;
+    for (int option; (option = getopt_long(argc, argv, "h", names, &which)) != -1;) {
         if (option == 'h') {
             fputs(help, stdout);
             return 0;
         }
         if (!parse_option(option, &s.options)) {
-            fprintf(stderr, "limn-bench: bad arguments; see limn-bench kernels --help\n");
+            if (option != '?')
+                fprintf(stderr, "limn-bench: --%s: '%s' is out of range or unknown\n",
+                        names[which].name, optarg ? optarg : "");
+            fprintf(stderr, "see limn-bench kernels --help\n");
             return 2;
         }
     }
