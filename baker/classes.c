@@ -173,8 +173,8 @@ static void fill_singles(const limni_layout *layout, const float rows[ROW_COUNT]
     }
 }
 
-/// Half the sum of the coefficients of a pair of slots goes to the first, half the difference to the
-/// second.
+/// Half the sum of the coefficients of a pair of slots goes to the first, half the difference to
+/// the second.
 static void fill_pairs(const class_maker *maker, uint32_t table, uint32_t slot, float *column) {
     const limni_layout *const layout = maker->layout;
     const uint32_t image = maker->images[slot];

@@ -6,8 +6,8 @@
 
 enum { NO_IMAGE = 0xffff };
 
-/// The coefficient that the image of `slot` must have in the image of `row`: the second tangent, from
-/// one side of the mirror line to the other, changes its sign.
+/// The coefficient that the image of `slot` must have in the image of `row`: the second tangent,
+/// from one side of the mirror line to the other, changes its sign.
 static limni_fixed mirrored(const limni_coefficients *c, uint32_t table, uint32_t row,
                             uint32_t slot) {
     const limni_fixed value = limni_coefficient(c, table, row, slot);

@@ -42,7 +42,8 @@ void limni_loop_limit_mask(const limni_rules *rules, const limni_star *star, lim
 /// Weights of two tangents of the limit surface at a vertex, as above; they sum to 0. Their cross
 /// product points to the side from which the ring is counter-clockwise. In a closed ring `along`
 /// points `half_steps` half steps from ring vertex 0 towards ring vertex 1, and starting from the
-/// opposite side of an even ring negates both exactly; in an open ring `along` follows the boundary.
+/// opposite side of an even ring negates both exactly; in an open ring `along` follows the
+/// boundary.
 void limni_loop_tangent_masks(const limni_star *star, uint32_t half_steps, limni_fixed *along,
                               limni_fixed *across);
 

@@ -267,9 +267,9 @@ static void project_to_limit(const subdivision *s, const complex *c, limni_fixed
     }
 }
 
-/// In half steps around a closed ring, where the tangents of a row start: on an edge, at the next row
-/// along it; inside, halfway between the directions of i and j, so that mirrored rows have mirrored
-/// tangents.
+/// In half steps around a closed ring, where the tangents of a row start: on an edge, at the next
+/// row along it; inside, halfway between the directions of i and j, so that mirrored rows have
+/// mirrored tangents.
 static uint32_t tangent_start(const subdivision *s, const complex *c, uint32_t row, int depth) {
     static const int directions[4][2] = {{1, 0}, {-1, 1}, {0, -1}, {1, 0}};
     const limn_row place = s->domain->rows[row];

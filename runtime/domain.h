@@ -7,8 +7,8 @@
 
 enum { LIMNI_SEGMENT_MAX = 2, LIMNI_PAIR_BLOCK_MAX = 6 };
 
-/// Consecutive rows of a column, and where in the patch their sums go. Sums of padding go there, too,
-/// and are overwritten by pairs.
+/// Consecutive rows of a column, and where in the patch their sums go. Sums of padding go there,
+/// too, and are overwritten by pairs.
 typedef struct limni_segment {
     uint16_t table_row; ///< first of the column, a multiple of 8
     uint16_t row;       ///< first of the patch
@@ -32,8 +32,8 @@ extern const limn_domain limni_domain_triangle;
 extern const limni_layout limni_layout_triangle;
 extern const limni_layout limni_layout_triangle_mirrored;
 
-/// Along an edge of that level, the place that a row at grid step `t` moves to: the nearest that the
-/// edge keeps; of two as near, the one towards the start.
+/// Along an edge of that level, the place that a row at grid step `t` moves to: the nearest that
+/// the edge keeps; of two as near, the one towards the start.
 static inline uint32_t limni_kept_place(uint32_t t, uint32_t edge_level) {
     const uint32_t step = LIMN_GRID_SIZE >> edge_level, behind = t % step;
     return 2 * behind <= step ? t - behind : t - behind + step;

@@ -553,7 +553,6 @@ const limn_domain limni_domain_triangle = {
     .kind = LIMN_DOMAIN_TRIANGLE,
     .corner_count = 3,
     .row_counts = {3, 6, 15, 45, 153},
-    .padded_row_counts = {8, 8, 16, 48, 160},
     .index_counts = {3, 12, 48, 192, 768},
     .indices = {indices_0, indices_1, indices_2, indices_3, indices_4},
     .rows = rows,

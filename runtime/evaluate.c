@@ -22,16 +22,18 @@ static bool fits(const void *start, uint32_t stride, uint32_t size) {
            (stride == 0 || stride >= size);
 }
 
-/// Streams of their own lie apart; inside the same vertices, positions and normals have one stride and
-/// do not overlap.
+/// Streams of their own lie apart; inside the same vertices, positions and normals have one stride
+/// and do not overlap.
 static bool are_apart(const limn_output *output) {
     const uint32_t size = position_size(output->position_format);
     const uint32_t normals = normal_size(output->normal_format);
     const uint32_t stride = output->stride ? output->stride : size;
     const uint32_t normal_stride = output->normal_stride ? output->normal_stride : normals;
     const uintptr_t behind = (uintptr_t)output->normals - (uintptr_t)output->vertices;
-    const bool same = behind < stride || -behind < normal_stride;
-    return !same || (stride == normal_stride && behind >= size && -behind >= normals);
+    if (behind >= stride && -behind >= normal_stride) return true;
+    if (stride != normal_stride) return false;
+    return behind < stride ? behind >= size && behind + normals <= stride
+                           : -behind >= normals && -behind + size <= stride;
 }
 
 static bool is_valid(const limn_mesh *mesh, const limn_output *output) {

@@ -55,7 +55,8 @@ static void add_row(point p, int level) {
 }
 
 /// Rows inside the triangle that a level adds, of one side of the mirror line i = j: -1 for j > i,
-/// 0 on the line, 1 for j < i. By ascending j, then i; beyond the line in the order of their images.
+/// 0 on the line, 1 for j < i. By ascending j, then i; beyond the line in the order of their
+/// images.
 static void add_interior(int level, int side) {
     const int step = GRID >> level;
     for (int j = step; j < GRID; j += step) {
@@ -195,24 +196,21 @@ static void print_mirrored_layout(void) {
 }
 
 int main(void) {
-    int index_counts[LEVEL_COUNT], padded[LEVEL_COUNT];
+    int index_counts[LEVEL_COUNT];
     number_rows();
     printf("/* SPDX-License-Identifier: MIT */\n"
            "/* Written by generate_domain.c; do not edit. */\n"
            "#include \"domain.h\"\n\n// clang-format off\n");
     print_rows();
     print_edges();
-    for (int level = 0; level < LEVEL_COUNT; level++) {
+    for (int level = 0; level < LEVEL_COUNT; level++)
         index_counts[level] = print_indices(level);
-        padded[level] = pad(row_counts[level]);
-    }
     print_plain_layout();
     print_mirrored_layout();
     printf("const limn_domain limni_domain_triangle = {\n"
            "    .kind = LIMN_DOMAIN_TRIANGLE,\n    .corner_count = %d,\n",
            CORNERS);
     print_list("row_counts", row_counts);
-    print_list("padded_row_counts", padded);
     print_list("index_counts", index_counts);
     printf("    .indices = {indices_0, indices_1, indices_2, indices_3, indices_4},\n"
            "    .rows = rows,\n    .edge_rows = edge_rows,\n};\n");

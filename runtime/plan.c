@@ -37,8 +37,8 @@ typedef struct planner {
     uint32_t patch_count;
 } planner;
 
-/// log2 within 0.008: continuous and rising, which is all that levels need, and quicker than libm's.
-/// x: not negative.
+/// log2 within 0.008: continuous and rising, which is all that levels need, and quicker than
+/// libm's. x: not negative.
 static float find_log2(float x) {
     uint32_t bits;
     memcpy(&bits, &x, sizeof bits);
@@ -76,8 +76,8 @@ static bool may_be_seen(const planner *p, const uint32_t *indices, uint32_t coun
     return false;
 }
 
-/// The square of the length of an edge on the screen, in pixels: the largest of all views. Exchanging
-/// a and b changes no bit.
+/// The square of the length of an edge on the screen, in pixels: the largest of all views.
+/// Exchanging a and b changes no bit.
 static float square_of_pixels(const planner *p, const float *a, const float *b) {
     float largest = 0;
     for (uint32_t v = 0; v < p->view_count; v++) {

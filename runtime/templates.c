@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Index templates: one triangulation of a patch for each of its own level and those of its edges. All
- * follow from the domain: a row on an edge that is coarser than the patch moves to the nearest row
- * that the edge keeps, and triangles that collapse are left out.
+ * Index templates: one triangulation of a patch for each of its own level and those of its edges.
+ * All follow from the domain: a row on an edge that is coarser than the patch moves to the nearest
+ * row that the edge keeps, and triangles that collapse are left out.
  */
 #include "domain.h"
 #include "require.h"
@@ -63,8 +63,8 @@ static uint16_t corner_behind(const uint16_t c[3], uint16_t a, uint16_t b) {
     return c[0] != a && c[0] != b ? c[0] : c[1] != a && c[1] != b ? c[1] : c[2];
 }
 
-/// A strip that begins with edge `first` of a triangle and goes on as far as there are triangles that
-/// are not used yet. Returns its length in indices.
+/// A strip that begins with edge `first` of a triangle and goes on as far as there are triangles
+/// that are not used yet. Returns its length in indices.
 static uint32_t follow_strip(const triangulation *t, const edge_index *left, uint32_t triangle,
                              uint32_t first, bool used[TRIANGLE_MAX], uint16_t *strip) {
     const uint16_t *const c = t->corners[triangle];
@@ -81,8 +81,8 @@ static uint32_t follow_strip(const triangulation *t, const edge_index *left, uin
     return length;
 }
 
-/// Strips with restarts between them. Triangles are taken up in order, each from the edge that gives
-/// the longest strip. Returns the number of indices.
+/// Strips with restarts between them. Triangles are taken up in order, each from the edge that
+/// gives the longest strip. Returns the number of indices.
 static uint32_t make_strips(const triangulation *t, uint16_t *indices) {
     edge_index left;
     bool used[TRIANGLE_MAX] = {false};

@@ -135,7 +135,7 @@ static inline void make_normals(const limni_target *target, const wanted *what, 
 
 static LIMNI_NOINLINE void store_patch(const limni_target *target, const parts *to,
                                        const wanted *what, scratch *rows) {
-    const float *const planes = rows->positions.axes[0];
+    const float *const planes = (const float *)(const void *)rows;
     if (what->item) morph_patch(target->domain, what->item, false, &rows->positions);
     if (target->position_format == LIMN_POSITION_UNORM16X4)
         pack_unorm16x4(target, what->row_count, &rows->positions);
@@ -192,9 +192,12 @@ static inline void evaluate_patches(const limni_run *run, uint32_t slot_size, te
     const part position = position_part(target), normal = normal_part(target);
     parts to;
     arrange_parts(&position, from->normals ? &normal : NULL, &to);
-    patch p = {.all = {ascending, ascending + count},
-               .even = {folded, folded + (count - 1 - pair_count)},
-               .odd = {folded + (count - 1 - pair_count), folded + (count - 1)}};
+    const size_t even_count = count - 1 - pair_count;
+    patch p = {.all = {ascending, ascending + count}};
+    if (pair_count) {
+        p.even = (terms){folded, folded + even_count};
+        p.odd = (terms){folded + even_count, folded + (count - 1)};
+    }
     scratch rows;
     clear_padding(target->domain, &rows.positions);
     clear_padding(target->domain, &rows.along);

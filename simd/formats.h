@@ -50,6 +50,9 @@ static inline void pack_unorm16x4(const limni_target *target, size_t row_count, 
 /// 1 / sqrt(a) for normal a, within 3 units in the last place: a guess from the bits (Lomont, "Fast
 /// inverse square root", 2003) and three steps of Newton's iteration. Cheaper than a root and a
 /// division, and the same everywhere.
+#define LEAST_SQUARE                                                                               \
+    (2 * FLT_MIN) ///< for which no step is denormal, as those may be flushed to zero
+#define MOST_SQUARE 0x1p126f
 enum { INVERSE_ROOT_BITS = 0x5f375a86, INVERSE_ROOT_STEPS = 3 };
 static inline lanes inverse_root(lanes a) {
     const lanes half = lanes_multiply(a, lanes_splat(0.5f)), three_halves = lanes_splat(1.5f);
@@ -61,13 +64,13 @@ static inline lanes inverse_root(lanes a) {
     return root;
 }
 
-/// Unit normals from two tangents, in place of the first. Along a shared edge the neighbour has both
-/// tangents negated, bit for bit, so that products, and all that follows, are the same but for the
-/// signs of zeros; adding +0 makes those alike. Where the cross product is too short or too long to
-/// be squared, the normal is (0, 0, 1).
+/// Unit normals from two tangents, in place of the first. Along a shared edge the neighbour has
+/// both tangents negated, bit for bit, so that products, and all that follows, are the same but for
+/// the signs of zeros; adding +0 makes those alike. Where the cross product is too short or too
+/// long to be squared, the normal is (0, 0, 1).
 static inline void find_normals(const vectors *across, size_t row_count, vectors *along) {
     const lanes zero = lanes_zero(), one = lanes_splat(1.0f);
-    const lanes least = lanes_splat(FLT_MIN), most = lanes_splat(FLT_MAX);
+    const lanes least = lanes_splat(LEAST_SQUARE), most = lanes_splat(MOST_SQUARE);
     for (size_t row = 0; row < row_count; row += LANES_WIDTH) {
         const lanes ax = lanes_load_any(&along->axes[0][row]);
         const lanes ay = lanes_load_any(&along->axes[1][row]);

@@ -17,8 +17,8 @@ typedef __m256 lanes;
 #define LANES_TILE 3 ///< products take a register more
 #endif
 
-/// Leaves the state that other code expects; the compiler would do so after every function, and that
-/// costs more than storing a patch (Zen 5).
+/// Leaves the state that other code expects; the compiler would do so after every function, and
+/// that costs more than storing a patch (Zen 5).
 static inline void lanes_end(void) {
     _mm256_zeroupper();
 }
@@ -41,8 +41,8 @@ static inline void lanes_store(float *dst, lanes a) {
 }
 /// Writes x y z, or x y, lane after lane. dst: not aligned.
 static inline void lanes_store_xyz(float *dst, lanes x, lanes y, lanes z) {
-    // Row r of x belongs to float 3r of the 24, row r of y to 3r + 1, row r of z to 3r + 2. Modulo 8
-    // each of the three takes every place once, so one permutation of each and blends are enough.
+    // Row r of x belongs to float 3r of the 24, row r of y to 3r + 1, row r of z to 3r + 2. Modulo
+    // 8 each of the three takes every place once, so one permutation of each and blends are enough.
     x = _mm256_permutevar8x32_ps(x, _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5));
     y = _mm256_permutevar8x32_ps(y, _mm256_setr_epi32(5, 0, 3, 6, 1, 4, 7, 2));
     z = _mm256_permutevar8x32_ps(z, _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7));

@@ -27,7 +27,7 @@ static inline void morph_normal(vectors *rows, const uint16_t parents[2], uint32
     morph_row(rows, parents, row, weight);
     const float x = rows->axes[0][row], y = rows->axes[1][row], z = rows->axes[2][row];
     const float square = x * x + y * y + z * z, half = square * 0.5f;
-    if (!(square > FLT_MIN)) return; // opposite normals: any direction is as good
+    if (!(square > LEAST_SQUARE)) return; // opposite normals: any direction is as good
     uint32_t bits;
     float root;
     memcpy(&bits, &square, sizeof bits);
@@ -53,8 +53,8 @@ static inline void copy_row(vectors *rows, uint32_t from, uint32_t to) {
         rows->axes[axis][to] = rows->axes[axis][from];
 }
 
-/// The rows of one edge: new ones move, and those that the edge does not have go to where the template
-/// moves them, for the sake of their children inside.
+/// The rows of one edge: new ones move, and those that the edge does not have go to where the
+/// template moves them, for the sake of their children inside.
 static inline void morph_edge(const limn_domain *domain, uint32_t edge, uint32_t level,
                               uint32_t edge_level, float weight, bool normals, vectors *rows) {
     const uint16_t *const along = domain->edge_rows[edge];

@@ -58,17 +58,22 @@ static inline quad quad_high_high(quad a, quad b) {
     return _mm_movehl_ps(b, a);
 }
 
-/// Copies `size` bytes past the caches. src: aligned to 16 bytes; dst: aligned to 4.
+static inline void stream_word(char *dst, const char *src) {
+    int word;
+    __builtin_memcpy(&word, src, sizeof word);
+    _mm_stream_si32((int *)(void *)dst, word);
+}
+/// Copies `size` bytes past the caches. dst: aligned to 4 bytes.
 static inline void lanes_stream(void *dst, const void *src, size_t size) {
     char *to = dst;
     const char *from = src;
     const char *const end = from + size;
     for (; (uintptr_t)to % 16 != 0 && end - from >= 4; to += 4, from += 4)
-        _mm_stream_si32((int *)(void *)to, *(const int *)(const void *)from);
+        stream_word(to, from);
     for (; end - from >= 16; to += 16, from += 16)
         _mm_stream_ps((float *)(void *)to, _mm_loadu_ps((const float *)(const void *)from));
     for (; end - from >= 4; to += 4, from += 4)
-        _mm_stream_si32((int *)(void *)to, *(const int *)(const void *)from);
+        stream_word(to, from);
 }
 /// After the last lanes_stream().
 static inline void lanes_stream_end(void) {

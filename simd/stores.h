@@ -80,8 +80,8 @@ static inline size_t store_fours(const part *p, const float *rows, unsigned char
     return row;
 }
 
-/// The same with vertices of one to three words behind one another, a vector of them at a time. A loop
-/// each: the words would be counted again for every vector.
+/// The same with vertices of one to three words behind one another, a vector of them at a time. A
+/// loop each: the words would be counted again for every vector.
 static inline size_t store_dense(const part *p, const float *rows, unsigned char *base, size_t row,
                                  size_t end) {
     const float *const x = rows + p->planes[0];
@@ -163,20 +163,22 @@ static inline void store_parts(const parts *p, const float *rows, size_t row, si
         store_rows(&p->items[i], rows, base_of(p, i), row, end);
 }
 
-/// All rows past the caches, by way of L1. There is no such way where the caller has bytes of his own
-/// between the vertices.
+/// All rows past the caches, by way of L1. There is no such way where the caller has bytes of his
+/// own between the vertices, nor for elements of two bytes.
 static inline void stream_parts(const parts *p, const float *rows, size_t row_count) {
     _Alignas(64) unsigned char staging[LIMNI_ROW_MAX * VERTEX_MAX];
+    if (p->count == 2 && p->apart) {
+        store_parts(p, rows, 0, row_count);
+        return;
+    }
     for (int i = 0; i < p->count; i++) {
         const part *const item = &p->items[i];
         if (item->size != item->stride || item->size % 4 != 0) {
-            store_parts(p, rows, 0, row_count);
-            return;
+            store_rows(item, rows, base_of(p, i), 0, row_count);
+            continue;
         }
-    }
-    for (int i = 0; i < p->count; i++) {
-        store_rows(&p->items[i], rows, staging, 0, row_count);
-        lanes_stream(base_of(p, i), staging, row_count * p->items[i].size);
+        store_rows(item, rows, staging, 0, row_count);
+        lanes_stream(base_of(p, i), staging, row_count * item->size);
     }
 }
 

@@ -13,8 +13,8 @@
 #include "../runtime/domain.h"
 #include "../runtime/kernels.h"
 
-/// A vector for every row of one patch: structure of arrays, in L1. Loops over rows go on to the end
-/// of a vector.
+/// A vector for every row of one patch: structure of arrays, in L1. Loops over rows go on to the
+/// end of a vector.
 enum { PLANE = LIMNI_ROW_MAX + LANES_WIDTH };
 typedef struct vectors {
     _Alignas(64) float axes[3][PLANE];
@@ -89,9 +89,9 @@ static inline void sum_tile(const patch *p, size_t table_row, size_t row, int co
         store_sums(&sums, v, p->origin, row + (size_t)v * LANES_WIDTH, out);
 }
 
-/// Full tiles, and one of just the vectors that are left. Not inlined: what a compiler would keep in
-/// registers around the loop over patches are registers that the sums need (gcc 12 spills all three
-/// splats).
+/// Full tiles, and one of just the vectors that are left. Not inlined: what a compiler would keep
+/// in registers around the loop over patches are registers that the sums need (gcc 12 spills all
+/// three splats).
 static LIMNI_NOINLINE void sum_rows(const patch *p, const limni_segment *segment, vectors *out) {
     enum { TILE = LANES_TILE * LANES_WIDTH };
     const size_t table_row = segment->table_row, row = segment->row, count = segment->count;
@@ -99,14 +99,15 @@ static LIMNI_NOINLINE void sum_rows(const patch *p, const limni_segment *segment
     for (; at + TILE <= count; at += TILE)
         sum_tile(p, table_row + at, row + at, LANES_TILE, out);
     const int rest = (int)((count - at) / LANES_WIDTH);
-    if (rest == 1) {
-        sum_tile(p, table_row + at, row + at, 1, out);
-    } else if (rest == 2) {
+    if (rest == 2) {
         sum_tile(p, table_row + at, row + at, 2, out);
     } else if (rest == 3 && LANES_TILE > 3) {
         sum_tile(p, table_row + at, row + at, 3, out);
     } else if (rest == 4 && LANES_TILE > 4) {
         sum_tile(p, table_row + at, row + at, 4, out);
+    } else { // rarely more than one
+        for (; at < count; at += LANES_WIDTH)
+            sum_tile(p, table_row + at, row + at, 1, out);
     }
 }
 
@@ -128,10 +129,10 @@ static inline void store_pair(lanes second, float *row, float *image) {
 }
 
 /// A class that is its own mirror image has control points in pairs, p and p', and rows in pairs, r
-/// and r', with coefficients a and b: r = a p + b p', r' = b p + a p'. Then r = e + o and r' = e - o
-/// where e = (a + b)/2 (p + p') and o = (a - b)/2 (p - p'): half the work. Control points that are
-/// their own images belong to e. No other patch has such rows, so their order of summation is ours.
-/// The first sums wait in `out`: there are not registers for both.
+/// and r', with coefficients a and b: r = a p + b p', r' = b p + a p'. Then r = e + o and r' = e -
+/// o where e = (a + b)/2 (p + p') and o = (a - b)/2 (p - p'): half the work. Control points that
+/// are their own images belong to e. No other patch has such rows, so their order of summation is
+/// ours. The first sums wait in `out`: there are not registers for both.
 ///
 /// at      the first pair
 /// negate  a row's image is the mirrored row with the opposite sign: r' = o - e
@@ -164,12 +165,12 @@ static LIMNI_NOINLINE void sum_pairs(const patch *p, const limni_layout *layout,
     size_t at = 0;
     for (; at + TILE <= pair_count; at += TILE)
         sum_pair_tile(p, layout, at, LANES_PAIR_TILE, negate, out);
-    const int rest = (int)((pair_count - at) / LANES_WIDTH);
-    if (rest == 1) {
-        sum_pair_tile(p, layout, at, 1, negate, out);
-    } else if (rest == 2) {
+    if (at + 2 * LANES_WIDTH == pair_count) {
         sum_pair_tile(p, layout, at, 2, negate, out);
+        return;
     }
+    for (; at < pair_count; at += LIMN_FORMAT_ROW_BLOCK)
+        sum_pair_tile(p, layout, at, LIMN_FORMAT_ROW_BLOCK / LANES_WIDTH, negate, out);
 }
 
 // ---- Long rows

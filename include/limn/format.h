@@ -27,7 +27,7 @@ extern "C" {
 /// Alignment of the blob in memory and of every chunk in the file, in bytes.
 #define LIMN_FORMAT_ALIGNMENT 64u
 
-/// Rows of a table column are padded with zeros to a multiple of this, at every level.
+/// Parts of a table column are padded with zeros to a multiple of this many rows.
 #define LIMN_FORMAT_ROW_BLOCK 8u
 
 /// A control index list longer than this stores two bytes per slot instead of one.
@@ -63,7 +63,7 @@ extern "C" {
 #define LIMN_CHUNK_INDICES                                                                         \
     LIMN_FORMAT_KIND('I', 'N', 'D', 'X') ///< uint32_t[]: control indices of the patches
 #define LIMN_CHUNK_SLOTS                                                                           \
-    LIMN_FORMAT_KIND('S', 'L', 'O', 'T') ///< uint8_t[] or uint16_t[]: slots, parallel to INDX
+    LIMN_FORMAT_KIND('S', 'L', 'O', 'T') ///< uint8_t[] or uint16_t[]: slots, ascending by INDX
 
 /// In files with normals: limn_file_normal[control_count], uint32_t[] and float[].
 #define LIMN_CHUNK_NORMALS LIMN_FORMAT_KIND('N', 'R', 'M', 'L')
@@ -100,7 +100,7 @@ typedef struct limn_file_class {
                             ///< tables chunk
     uint32_t control_count; ///< K, the size of the local base
     uint16_t domain;        ///< limn_domain_kind
-    uint16_t depth;         ///< deepest level of the table; its padded row count is the row stride
+    uint16_t depth;         ///< deepest level of the table; see limn_file_row_stride()
     uint16_t valences[4];   ///< of the patch's corners, in row order; 0 beyond the domain's corners
     uint32_t boundary_corners; ///< bit c: corner c lies on a boundary
     uint16_t table_count;      ///< 1: positions; 3: then the tangents along and across
@@ -145,8 +145,8 @@ typedef struct limn_file_mesh {
 } limn_file_mesh;
 
 /// Consecutive patches of one class. Patch p of the run has its control indices, by slot, at
-/// indices[first_index + p * K], and at first_slot + p * K * (slot width) its slots, one or two bytes
-/// each, in ascending order of these indices.
+/// indices[first_index + p * K], and at first_slot + p * K * (slot width) its slots, one or two
+/// bytes each, in ascending order of these indices.
 typedef struct limn_file_run {
     uint32_t class_index;
     uint32_t first_patch;

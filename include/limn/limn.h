@@ -58,7 +58,7 @@ uint32_t limn_version(void);
     X(LIMN_ERROR_UNKNOWN_CHUNK, "the file needs a feature that this version does not have")        \
     X(LIMN_ERROR_TEXT, "a name or the bake description is not zero-terminated")                    \
     X(LIMN_ERROR_CLASS,                                                                            \
-      "a class has an unknown domain or depth, or its table lies outside the tables")              \
+      "a class has an unknown domain, depth or symmetry, or its table lies outside the tables")    \
     X(LIMN_ERROR_TABLE, "a stencil table holds a coefficient that is not finite")                  \
     X(LIMN_ERROR_MESH, "a mesh's counts disagree with the sizes of its chunks")                    \
     X(LIMN_ERROR_CONTROLS, "a control point of the bind pose is not finite")                       \
@@ -110,12 +110,11 @@ typedef uint16_t limn_edge_rows[LIMN_GRID_SIZE + 1];
 typedef struct limn_domain {
     limn_domain_kind kind;
     uint32_t corner_count; ///< corners, and edges; edge e runs from corner e to e + 1
-    uint16_t row_counts[LIMN_LEVEL_COUNT];        ///< vertices of a patch
-    uint16_t padded_row_counts[LIMN_LEVEL_COUNT]; ///< the same, rounded up to LIMN_FORMAT_ROW_BLOCK
-    uint16_t index_counts[LIMN_LEVEL_COUNT];      ///< three per triangle
-    const uint16_t *indices[LIMN_LEVEL_COUNT];    ///< counter-clockwise triangles of a patch
-    const limn_row *rows;                         ///< [row_counts[LIMN_LEVEL_MAX]]
-    const limn_edge_rows *edge_rows;              ///< [corner_count]
+    uint16_t row_counts[LIMN_LEVEL_COUNT];     ///< vertices of a patch
+    uint16_t index_counts[LIMN_LEVEL_COUNT];   ///< three per triangle
+    const uint16_t *indices[LIMN_LEVEL_COUNT]; ///< counter-clockwise triangles of a patch
+    const limn_row *rows;                      ///< [row_counts[LIMN_LEVEL_MAX]]
+    const limn_edge_rows *edge_rows;           ///< [corner_count]
 } limn_domain;
 
 /// The domain of a kind. Never fails; any thread.
@@ -124,9 +123,9 @@ const limn_domain *limn_domain_get(limn_domain_kind kind);
 // -------------------------------------------------------------------------------------------------
 // Templates
 //
-// A patch whose edges are coarser than itself is sewn to its neighbours by its indices alone: there is
-// a template for every level of a patch and of each of its edges, whatever the difference. Templates
-// depend on the domain only; upload them once.
+// A patch whose edges are coarser than itself is sewn to its neighbours by its indices alone: there
+// is a template for every level of a patch and of each of its edges, whatever the difference.
+// Templates depend on the domain only; upload them once.
 
 typedef enum limn_topology {
     LIMN_TOPOLOGY_TRIANGLES,
@@ -167,8 +166,8 @@ uint32_t limn_templates_write(const limn_domain *domain, limn_topology topology,
                               uint32_t index_size, void *indices, limn_template *templates);
 
 /// The rows of a whole patch in the order of one strip without indices, for hardware that has none:
-/// row of cells by row of cells, from right to left (Brickhill), joined by degenerate triangles. Does
-/// not allocate, never fails; any thread. Returns the number of rows.
+/// row of cells by row of cells, from right to left (Brickhill), joined by degenerate triangles.
+/// Does not allocate, never fails; any thread. Returns the number of rows.
 ///
 /// rows  out: [LIMN_EXPANDED_STRIP_MAX]
 uint32_t limn_expanded_strip(const limn_domain *domain, uint32_t level, uint16_t *rows);
@@ -279,10 +278,10 @@ void limn_mesh_corners(const limn_mesh *mesh, uint32_t patch_index,
 // -------------------------------------------------------------------------------------------------
 // Plans and evaluation
 
-/// One patch of a plan with levels of detail. The level of an edge is a real number l between 0 and 4,
-/// which follows from the edge alone; n = ceil(l) levels are drawn of it, and what is new at level n
-/// is on its way from the middle of its parents (weight 0) to its place (1): at l - (n - 1). A patch
-/// has the highest level of its edges, and its weight.
+/// One patch of a plan with levels of detail. The level of an edge is a real number l between 0 and
+/// 4, which follows from the edge alone; n = ceil(l) levels are drawn of it, and what is new at
+/// level n is on its way from the middle of its parents (weight 0) to its place (1): at l - (n -
+/// 1). A patch has the highest level of its edges, and its weight.
 typedef struct limn_plan_patch {
     uint32_t patch;          ///< of the mesh
     uint32_t first_vertex;   ///< in the output: the base vertex to draw its template with
@@ -390,8 +389,8 @@ limn_plan limn_plan_build(const limn_mesh *mesh, const float *controls, const li
 /// `patch_index` < plan->patch_count counts the patches of the plan.
 uint64_t limn_plan_first_vertex(const limn_plan *plan, uint32_t patch_index);
 
-/// How a position is written. Packed, each coordinate is q = 65535 (x - min) / (max - min), rounded to
-/// the nearest and clamped to the box, so x = min + q / 65535 (max - min) within half a step;
+/// How a position is written. Packed, each coordinate is q = 65535 (x - min) / (max - min), rounded
+/// to the nearest and clamped to the box, so x = min + q / 65535 (max - min) within half a step;
 /// neighbours still agree in every bit.
 typedef enum limn_position_format {
     LIMN_POSITION_FLOAT3,   ///< 12 bytes
@@ -416,18 +415,20 @@ typedef struct limn_output {
     uint32_t stride; ///< bytes from position to position, a multiple of 4; 0 means tightly packed
     limn_position_format position_format;
     const float *box; ///< [2][3], min and max, for packed positions; NULL: the mesh's bounds in the
-                      ///< bind pose. The surface never leaves the box of its control points
+                      ///< bind pose. The surface never leaves the box of its control points.
+                      ///< On an axis without extent all is 0
     void *normals; ///< normal of vertex 0 of the plan, aligned to 4 bytes, or to 2 if it has 2: in
                    ///< a stream of its own, or inside the vertices, with the same stride; NULL: no
                    ///< normals
     uint32_t normal_stride; ///< bytes from normal to normal, a multiple of the alignment; 0 means
                             ///< tightly packed, so inside the vertices it is never 0
     limn_normal_format normal_format;
-    const float
-        *control_normals; ///< [mesh->control_count][3] from limn_mesh_control_normals(), for
-                          ///< the corners of the patches; needed with `normals`
-    bool streaming; ///< write past the caches, where the CPU can (x86) and where there are no gaps
-                    ///< between vertices: for memory that this CPU does not read soon
+    /// [mesh->control_count][3] from limn_mesh_control_normals(), for the corners of the patches;
+    /// needed with `normals`.
+    const float *control_normals;
+    /// Write past the caches, where the CPU can (x86), where there are no gaps between vertices and
+    /// no 2-byte normals: for memory that this CPU does not read soon.
+    bool streaming;
 } limn_output;
 
 /// Limit normals of all control points: unit vectors, towards the side from which faces are

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The kernels of every instruction set this CPU has, on made-up classes: all ranges of patches, all
- * levels, formats and strides; guard bytes around the output; bit-equal to scalar, and scalar within
- * a bound of a sum in double precision. Links the runtime alone.
+ * levels, formats and strides; guard bytes around the output; bit-equal to scalar, and scalar
+ * within a bound of a sum in double precision. Links the runtime alone.
  */
 #include "../../runtime/checksum.h"
 #include "../../runtime/kernels.h"
@@ -269,8 +269,8 @@ typedef struct reference {
     double result, bound;
 } reference;
 
-/// Bounds a sum of n rounded products, or a compensated one, relative to the sum of absolute values,
-/// plus the rounding of the origin. The sums of pairs take three roundings more.
+/// Bounds a sum of n rounded products, or a compensated one, relative to the sum of absolute
+/// values, plus the rounding of the origin. The sums of pairs take three roundings more.
 static double bound(uint32_t terms, bool paired, double magnitude, double result) {
     const double unit = FLT_EPSILON / 2;
     const double roundings = terms > LIMNI_PLAIN_TERMS ? 4 : terms + (paired ? 4.0 : 1.0);
@@ -445,9 +445,105 @@ static double angle_between(const double a[3], const float b[3]) {
     return atan2(sqrt(square), dot);
 }
 
-/// Packed normals, unpacked, are near the floats: half a step in each coordinate is sqrt(18) of that
-/// in the middle of the octahedron's faces, and sqrt(3) on the sphere. Corners are left out, whose
-/// normals are not of unit length here.
+/// Streams of their own hold what is inside the vertices otherwise, tightly packed or not.
+static void test_streams(made *m, const limn_kernels *kernels) {
+    static unsigned char positions[CLASSES * PATCHES * 153 * 16 + 2 * GUARD];
+    static unsigned char normals[CLASSES * PATCHES * 153 * 16 + 2 * GUARD];
+    for (int kind = 0; kind < 32; kind++) {
+        const layout inside = {.stride = STRIDE_MAX,
+                               .normal_offset = 16,
+                               .position = (limn_position_format)(kind % 2),
+                               .normal = (limn_normal_format)(kind / 2 % 4),
+                               .streaming = kind / 8 % 2};
+        const uint32_t gap = kind / 16 ? 4 : 0, level = next_random() % LIMN_LEVEL_COUNT;
+        const uint32_t position_stride = position_size(&inside) + gap;
+        const uint32_t normal_stride = normal_size(&inside) + gap;
+        evaluate_as(m, kernels, level, &inside, 0, m->mesh.patch_count, expected);
+        memset(positions, 0xa5, sizeof positions);
+        memset(normals, 0xa5, sizeof normals);
+        limn_output output = make_output(m, &inside, positions + GUARD);
+        output.stride = position_stride;
+        output.normals = normals + GUARD;
+        output.normal_stride = normal_stride;
+        const limn_plan plan = limn_plan_uniform(&m->mesh, level);
+        limn_evaluate(&plan, m->controls[0], 0, plan.patch_count, &output);
+        const size_t count = (size_t)plan.vertex_count;
+        bool same = true;
+        for (size_t v = 0; v < count; v++) {
+            const unsigned char *const vertex = expected + GUARD + v * STRIDE_MAX;
+            same &= memcmp(vertex, positions + GUARD + v * position_stride,
+                           position_size(&inside)) == 0;
+            same &=
+                memcmp(vertex + 16, normals + GUARD + v * normal_stride, normal_size(&inside)) == 0;
+        }
+        CHECK(same);
+        CHECK(positions[GUARD - 1] == 0xa5 && positions[GUARD + count * position_stride] == 0xa5);
+        CHECK(normals[GUARD - 1] == 0xa5 && normals[GUARD + count * normal_stride] == 0xa5);
+    }
+}
+
+// ---- Plans with levels of detail
+
+enum { PATCH_TOTAL = CLASSES * PATCHES };
+
+/// Some of the patches, at any levels and weights, one behind the other.
+static limn_plan make_plan(const made *m, limn_plan_patch *items) {
+    limn_plan plan = {.mesh = &m->mesh, .patches = items};
+    for (uint32_t patch = 0; patch < PATCH_TOTAL; patch++) {
+        limn_plan_patch *const item = &items[plan.patch_count];
+        if (next_random() % 4 == 0) continue;
+        plan.patch_count++;
+        *item = (limn_plan_patch){.patch = patch,
+                                  .level = (uint8_t)(next_random() % LIMN_LEVEL_COUNT),
+                                  .first_vertex = (uint32_t)plan.vertex_count,
+                                  .morph = next_random() % 4 ? random_float(0, 1) : 1};
+        for (uint32_t e = 0; e < 3; e++) {
+            item->edge_levels[e] = (uint8_t)(next_random() % (item->level + 1u));
+            item->edge_morphs[e] = next_random() % 4 ? random_float(0, 1) : 1;
+        }
+        plan.vertex_count += m->mesh.domain->row_counts[item->level];
+    }
+    return plan;
+}
+
+static void evaluate_plan(made *m, const limn_kernels *kernels, const limn_plan *plan,
+                          const layout *l, uint32_t begin, uint32_t end, unsigned char *buffer) {
+    m->mesh.kernels = kernels;
+    const size_t size = (size_t)plan->vertex_count * l->stride;
+    memset(buffer, 0xa5, size + 2 * GUARD);
+    const limn_output output = make_output(m, l, buffer + GUARD);
+    limn_evaluate(plan, m->controls[0], begin, end, &output);
+    const size_t last = end < plan->patch_count ? (size_t)plan->patches[end].first_vertex
+                                                : (size_t)plan->vertex_count;
+    const size_t first = begin < end ? plan->patches[begin].first_vertex : last;
+    bool untouched = true;
+    for (size_t b = 0; b < size + 2 * GUARD; b++) {
+        if (b < GUARD + first * l->stride || b >= GUARD + last * l->stride)
+            untouched &= buffer[b] == 0xa5;
+    }
+    CHECK(untouched);
+}
+
+/// Patches at levels of their own, morphed: as with the scalar kernels, and nothing else is
+/// written.
+static void test_plans(made *m, const limn_kernels *kernels) {
+    static limn_plan_patch items[PATCH_TOTAL];
+    for (int round = 0; round < 8; round++) {
+        const layout l = round % 2 ? layouts[next_random() % LAYOUTS]
+                                   : (layout){.stride = 24, .normal_offset = 12};
+        const limn_plan plan = make_plan(m, items);
+        const uint32_t begin = next_random() % plan.patch_count;
+        const uint32_t end = begin + next_random() % (plan.patch_count - begin + 1);
+        evaluate_plan(m, scalar_kernels(), &plan, &l, begin, end, expected);
+        evaluate_plan(m, kernels, &plan, &l, begin, end, actual);
+        const size_t size = (size_t)plan.vertex_count * l.stride + 2 * GUARD;
+        CHECK(kernels->family == LIMN_FAMILY_FAST || memcmp(expected, actual, size) == 0);
+    }
+}
+
+/// Packed normals, unpacked, are near the floats: half a step in each coordinate is sqrt(18) of
+/// that in the middle of the octahedron's faces, and sqrt(3) on the sphere. Corners are left out,
+/// whose normals are not of unit length here.
 static void test_packed_normals(made *m, const limn_kernels *kernels) {
     static const double bounds[] = {0, 4.25 * 0.5 / 32767, 4.25 * 0.5 / 127, 1.74 * 0.5 / 127};
     const uint32_t count = m->mesh.patch_count;
@@ -561,6 +657,8 @@ static void test_kernels(made *m, const limn_kernels *kernels, point_kind kind, 
     test_prefix(m, kernels);
     test_normal_stream(m, kernels);
     test_layouts(m, kernels);
+    test_streams(m, kernels);
+    test_plans(m, kernels);
     if (kind != RANDOM) return;
     test_packed_normals(m, kernels);
     test_packed_positions(m, kernels);
