@@ -92,7 +92,6 @@ typedef struct class_maker {
     uint16_t *images;       ///< [slot_count] mirror images, if there are pairs
     uint32_t pair_count;    ///< of columns
     uint32_t control_count; ///< columns
-    const limni_layout *layout;
 } class_maker;
 
 /// Adds one column along one edge to a hash. Read against the edge, `negated` turns the signs.
@@ -153,39 +152,27 @@ static void number_columns(class_maker *maker, uint16_t *columns) {
     maker->control_count = count;
 }
 
-static bool is_paired(const limni_layout *layout, uint32_t row) {
-    for (uint32_t b = 0; b < layout->pair_counts[LIMN_LEVEL_MAX] / LIMN_FORMAT_ROW_BLOCK; b++) {
-        if (row - layout->pair_rows[b] < LIMN_FORMAT_ROW_BLOCK ||
-            row - layout->mirror_rows[b] < LIMN_FORMAT_ROW_BLOCK)
-            return true;
-    }
-    return false;
-}
-
-/// The rows that the layout has one by one. What pads a segment stays zero.
-static void fill_singles(const limni_layout *layout, const float rows[ROW_COUNT], float *column) {
-    for (int s = 0; s < LIMNI_SEGMENT_MAX; s++) {
-        const limni_segment *const segment = &layout->segments[LIMN_LEVEL_MAX][s];
-        for (uint32_t r = 0; r < segment->count && segment->row + r < ROW_COUNT; r++) {
-            if (!is_paired(layout, segment->row + r))
-                column[segment->table_row + r] = rows[segment->row + r];
-        }
-    }
-}
-
-/// Half the sum of the coefficients of a pair of slots goes to the first, half the difference to
-/// the second.
-static void fill_pairs(const class_maker *maker, uint32_t table, uint32_t slot, float *column) {
-    const limni_layout *const layout = maker->layout;
+/// What a column of a slot has for a pair of rows: half the sum of the coefficients of a pair of
+/// slots goes to the first, half the difference to the second.
+static float pair_value(const class_maker *maker, uint32_t table, uint32_t row, uint32_t slot) {
     const uint32_t image = maker->images[slot];
-    for (uint32_t pair = 0; pair < layout->pair_counts[LIMN_LEVEL_MAX]; pair++) {
-        const uint32_t row = layout->pair_rows[pair / LIMN_FORMAT_ROW_BLOCK] + pair % 8;
-        const limni_fixed own = limni_coefficient(&maker->coefficients, table, row, slot);
-        const limni_fixed other = limni_coefficient(&maker->coefficients, table, row, image);
-        float value = limni_fixed_to_float(own);
-        if (image > slot) value = limni_fixed_to_float(own + other) / 2;
-        if (image < slot) value = limni_fixed_to_float(other - own) / 2;
-        column[layout->pair_table_row + pair] = value;
+    const limni_fixed own = limni_coefficient(&maker->coefficients, table, row, slot);
+    const limni_fixed other = limni_coefficient(&maker->coefficients, table, row, image);
+    if (image > slot) return limni_fixed_to_float(own + other) / 2;
+    if (image < slot) return limni_fixed_to_float(other - own) / 2;
+    return limni_fixed_to_float(own);
+}
+
+/// What pads a column stays zero.
+static void fill_column(const class_maker *maker, uint32_t table, uint32_t slot,
+                        const float rows[ROW_COUNT], float *column) {
+    const limni_layout *const layout =
+        limni_layout_get(LIMN_DOMAIN_TRIANGLE, table > 0, maker->pair_count);
+    for (uint32_t place = 0; place < layout->row_stride; place++) {
+        const uint32_t row = layout->rows[place];
+        if (row == LIMNI_NO_ROW) continue;
+        const bool paired = place - layout->pair_table_row < layout->pair_counts[LIMN_LEVEL_MAX];
+        column[place] = paired ? pair_value(maker, table, row, slot) : rows[row];
     }
 }
 
@@ -199,8 +186,7 @@ static void fill_slot(const class_maker *maker, uint32_t slot, uint32_t column_i
         for (uint32_t row = 0; row < ROW_COUNT; row++)
             rows[table][row] =
                 limni_fixed_to_float(limni_coefficient(&maker->coefficients, table, row, slot));
-        fill_singles(maker->layout, rows[table], column);
-        if (maker->pair_count) fill_pairs(maker, table, slot, column);
+        fill_column(maker, table, slot, rows[table], column);
     }
     for (uint32_t edge = 0; edge < 3; edge++) {
         limni_edge_prints *const prints = &class->prints[column_index];
@@ -242,12 +228,13 @@ static limn_bake_status make_class(limni_context *context, const limni_rules *ru
     LIMNI_TRY(begin_class(context, rules, neighbourhood, &maker));
     find_used(&maker.coefficients, maker.used);
     maker.pair_count = limni_find_mirror(&maker.coefficients, maker.used, maker.images);
-    maker.layout = limni_layout_get(LIMN_DOMAIN_TRIANGLE, maker.pair_count);
     number_columns(&maker, columns);
+    const uint32_t row_stride =
+        limni_layout_get(LIMN_DOMAIN_TRIANGLE, false, maker.pair_count)->row_stride;
     *class = (limni_class){.control_count = maker.control_count,
                            .pair_count = maker.pair_count,
                            .table_count = maker.coefficients.table_count,
-                           .row_stride = maker.layout->row_stride};
+                           .row_stride = row_stride};
     class->table = limni_allocate_zeroed(context, limni_class_table_size(class), 1);
     class->prints = limni_allocate(context, class->control_count, sizeof *class->prints);
     if (!class->table || !class->prints) return LIMN_BAKE_MEMORY;

@@ -84,12 +84,12 @@ static double length(const double a[3]) {
     return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
 
-/// The area that two tangents span, or 0 where they are nearly parallel, or shorter than `least`.
-static double spanned_area(const double tangents[2][3], double least) {
+/// Whether two tangents span a plane: not nearly parallel, nor shorter than `least`.
+static bool span_plane(const double tangents[2][3], double least) {
     double cross[3];
     cross_product(tangents[0], tangents[1], cross);
     const double a = length(tangents[0]), b = length(tangents[1]);
-    return a > least && b > least && length(cross) > 1e-3 * a * b ? length(cross) : 0;
+    return a > least && b > least && length(cross) > 1e-3 * a * b;
 }
 
 /// The angle between a normal and the one that two tangents span.
@@ -121,18 +121,14 @@ static void compare_normals(const limn_mesh *mesh, const limni_mesh *source, uin
     for (uint32_t row = 0; row < row_count; row++) {
         const size_t other = (size_t)face.face * row_count + unrotated[face.rotation][row];
         if (!is_comparable(mesh, source, patch, row)) continue;
-        const double area = spanned_area(tangents[other], 1e-9 * comparison->diagonal);
-        if (area == 0) {
+        if (!span_plane(tangents[other], 1e-9 * comparison->diagonal)) {
             comparison->degenerate_count++;
             continue;
         }
         const double angle =
             angle_between(normals[(size_t)patch * row_count + row], tangents[other]);
-        const double height = area / fmax(length(tangents[other][0]), length(tangents[other][1]));
-        const double excess = angle - 8 * (double)FLT_EPSILON * comparison->reach / height;
         comparison->normal_count++;
         comparison->mean_angle += angle;
-        comparison->largest_excess = fmax(comparison->largest_excess, excess);
         if (!(angle <= comparison->largest_angle)) {
             comparison->largest_angle = angle;
             comparison->largest_angle_face = face.face;
@@ -196,7 +192,6 @@ limn_bake_status limni_compare(limni_context *context, const limn_pack *pack, co
     for (int axis = 0; axis < 3; axis++) {
         const double reach = fmax(fabs((double)low[axis]), fabs(high[axis]));
         comparison->rounding += reach * (double)FLT_EPSILON / comparison->diagonal;
-        comparison->reach = fmax(comparison->reach, reach);
     }
     if (!(comparison->diagonal > 0))
         return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: the mesh has no extent", path);

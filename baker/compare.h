@@ -16,8 +16,6 @@ typedef struct limni_comparison {
     uint64_t degenerate_count;        ///< not compared: the tangents span next to nothing
     double largest_angle, mean_angle; ///< between normals, in radians
     uint32_t largest_angle_face;
-    double reach;          ///< the largest coordinate
-    double largest_excess; ///< of an angle over what rounding such coordinates to floats explains
 } limni_comparison;
 
 /// Compares the bind pose at level 4, all 153 rows of every face, with OpenSubdiv's answer for the

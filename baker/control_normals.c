@@ -26,10 +26,11 @@ static limn_bake_status begin_masks(limni_context *context, const limni_mesh *me
     return LIMN_BAKE_OK;
 }
 
-/// Appends the two masks of a star to the weights.
+/// Appends the two masks of a star to the weights: those of the ring. Masks sum to zero, so sums
+/// relative to the centre need no weight for it.
 static limn_bake_status write_mask(limni_context *context, const limni_star *star, mask_list *masks,
                                    limni_control_normals *normals) {
-    const uint64_t size = 2 * ((uint64_t)star->count + 1);
+    const uint64_t size = 2 * (uint64_t)star->count;
     if (normals->weight_count + size > masks->capacity) {
         masks->capacity = 2 * (masks->capacity + size);
         float *const weights =
@@ -39,9 +40,9 @@ static limn_bake_status write_mask(limni_context *context, const limni_star *sta
     }
     limni_loop_tangent_masks(star, 0, masks->along, masks->across);
     float *weight = normals->weights + normals->weight_count;
-    for (uint32_t w = 0; w <= star->count; w++) {
-        weight[w] = limni_fixed_to_float(masks->along[w]);
-        weight[star->count + 1 + w] = limni_fixed_to_float(masks->across[w]);
+    for (uint32_t w = 0; w < star->count; w++) {
+        weight[w] = limni_fixed_to_float(masks->along[1 + w]);
+        weight[star->count + w] = limni_fixed_to_float(masks->across[1 + w]);
     }
     normals->weight_count += size;
     return LIMN_BAKE_OK;

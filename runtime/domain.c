@@ -10,7 +10,7 @@ const limn_domain *limn_domain_get(limn_domain_kind kind) {
     return domains[kind];
 }
 
-const limni_layout *limni_layout_get(limn_domain_kind kind, uint32_t pair_count) {
+const limni_layout *limni_layout_get(limn_domain_kind kind, bool tangents, uint32_t pair_count) {
     (void)kind; // there is but one
-    return pair_count ? &limni_layout_triangle_mirrored : &limni_layout_triangle;
+    return &(tangents ? limni_tangents_triangle : limni_positions_triangle)[pair_count > 0];
 }

@@ -3,34 +3,63 @@
 #ifndef LIMNI_DOMAIN_H
 #define LIMNI_DOMAIN_H
 
+#include "limn/format.h"
 #include "limn/limn.h"
 
-enum { LIMNI_SEGMENT_MAX = 2, LIMNI_PAIR_BLOCK_MAX = 6 };
+enum {
+    LIMNI_SEGMENT_MAX = 2,
+    LIMNI_PAIR_BLOCK_MAX = 6,
+    LIMNI_EDGE_ROWS = 16, ///< a tangent table's places for one edge
+    LIMNI_NO_ROW = 0xffff
+};
 
-/// Consecutive rows of a column, and where in the patch their sums go. Sums of padding go there,
-/// too, and are overwritten by pairs.
+/// Consecutive places of a column, and where in the patch their sums go. Sums of padding go there,
+/// too, and are overwritten by pairs or by edges.
 typedef struct limni_segment {
-    uint16_t table_row; ///< first of the column, a multiple of 8
+    uint16_t table_row; ///< first place of the column, a multiple of 8
     uint16_t row;       ///< first of the patch
     uint16_t count;     ///< a multiple of 8
 } limni_segment;
 
-/// How a table is laid out. What a level reads is a prefix of each column.
+/// How a table is laid out. What a level reads of a segment, of the pairs and of an edge is a
+/// prefix.
 ///
 /// Where a class is its own mirror image, most rows inside the patch are pairs: a row and its image
-/// follow from one sum of even terms and one of odd ones (simd/sums.h).
+/// follow from one sum of even terms and one of odd ones (simd/sums.h). Tangents have the rows of
+/// each edge apart, because they are summed relative to a point of the edge.
 typedef struct limni_layout {
+    uint16_t row_stride;  ///< places of a column
+    const uint16_t *rows; ///< [row_stride] the row at each place; of a pair, that on one side;
+                          ///< LIMNI_NO_ROW: padding
     limni_segment segments[LIMN_LEVEL_COUNT][LIMNI_SEGMENT_MAX]; ///< count 0: none
     uint16_t pair_counts[LIMN_LEVEL_COUNT];                      ///< multiples of 8
-    uint16_t pair_table_row;                                     ///< the first of the column
+    uint16_t pair_table_row;                                     ///< their first place
     uint16_t pair_rows[LIMNI_PAIR_BLOCK_MAX];   ///< where each block of 8 goes, one side,
     uint16_t mirror_rows[LIMNI_PAIR_BLOCK_MAX]; ///< and the other
-    uint16_t row_stride;                        ///< rows of a column
+    /// Of tangents: rows of edge e, from place e * LIMNI_EDGE_ROWS on.
+    uint16_t edge_counts[LIMN_LEVEL_COUNT];
 } limni_layout;
 
 extern const limn_domain limni_domain_triangle;
-extern const limni_layout limni_layout_triangle;
-extern const limni_layout limni_layout_triangle_mirrored;
+
+/// The layout of a class's table of positions, or of each table of tangents; `pair_count` is that
+/// of its record.
+const limni_layout *limni_layout_get(limn_domain_kind kind, bool tangents, uint32_t pair_count);
+
+/// What limni_layout_get() chooses from: without pairs, and with.
+extern const limni_layout limni_positions_triangle[2], limni_tangents_triangle[2];
+
+static inline size_t limni_padded(size_t row_count) {
+    return (row_count + LIMN_FORMAT_ROW_BLOCK - 1) / LIMN_FORMAT_ROW_BLOCK * LIMN_FORMAT_ROW_BLOCK;
+}
+
+/// The first row inside that a level adds.
+static inline uint32_t limni_first_inside(const limn_domain *domain, uint32_t level) {
+    return domain->row_counts[level - 1] + domain->corner_count * (1u << (level - 1));
+}
+
+/// The first level whose tangents inside are not among those of the edges.
+enum { LIMNI_INSIDE_LEVEL = 3 };
 
 /// Along an edge of that level, the place that a row at grid step `t` moves to: the nearest that
 /// the edge keeps; of two as near, the one towards the start.
@@ -38,8 +67,5 @@ static inline uint32_t limni_kept_place(uint32_t t, uint32_t edge_level) {
     const uint32_t step = LIMN_GRID_SIZE >> edge_level, behind = t % step;
     return 2 * behind <= step ? t - behind : t - behind + step;
 }
-
-/// The layout of the tables of a class; `pair_count` is that of its record.
-const limni_layout *limni_layout_get(limn_domain_kind kind, uint32_t pair_count);
 
 #endif

@@ -10,6 +10,7 @@
 
 enum { LEVEL_COUNT = 5, LEVEL_MAX = 4, GRID = 16, ROW_BLOCK = 8, CORNERS = 3, ROW_MAX = 153 };
 enum { PAIRED = 3 }; ///< the first level with pairs of rows
+enum { EDGE_ROWS = 16, NO_ROW = 0xffff };
 
 typedef struct point {
     int i, j;
@@ -152,16 +153,102 @@ static void print_list(const char *name, const int values[LEVEL_COUNT]) {
         printf("%d%s", values[level], level < LEVEL_MAX ? ", " : "},\n");
 }
 
-static void print_segments(const char *name) {
-    printf("const limni_layout limni_layout_%s = {\n    .segments =\n        {\n", name);
+// ---- Layouts
+
+typedef struct segment {
+    int table_row, row, count;
+} segment;
+
+/// See limni_layout; the fields are the same.
+typedef struct layout {
+    int row_stride, rows[ROW_MAX + 2 * CORNERS * EDGE_ROWS];
+    segment segments[LEVEL_COUNT][2];
+    int pair_counts[LEVEL_COUNT], pair_table_row;
+    int edge_counts[LEVEL_COUNT];
+} layout;
+
+/// Appends places for rows [row, row + count), padded. `level` and finer ones read them as a
+/// segment.
+static void add_segment(layout *l, int level, int row, int count) {
+    const segment added = {l->row_stride, row, pad(count)};
+    for (int r = 0; r < added.count; r++)
+        l->rows[l->row_stride++] = r < count ? row + r : NO_ROW;
+    for (; level < LEVEL_COUNT; level++)
+        l->segments[level][l->segments[level][0].count > 0] = added;
 }
 
-/// Without a mirror line, the rows of a level are one segment.
-static void print_plain_layout(void) {
-    print_segments("triangle");
+/// Appends the pairs of all levels.
+static void add_pairs(layout *l) {
+    l->pair_table_row = l->row_stride;
+    for (int level = PAIRED; level < LEVEL_COUNT; level++) {
+        const int count = mirror_rows[level] - pair_rows[level];
+        l->pair_counts[level] = l->pair_counts[level - 1] + count;
+        for (int r = 0; r < count; r++)
+            l->rows[l->row_stride++] = pair_rows[level] + r;
+    }
+}
+
+/// Positions without a mirror line: the rows of a level are one segment.
+static layout plain_positions(void) {
+    layout l = {0};
+    add_segment(&l, LEVEL_MAX, 0, ROW_MAX);
+    for (int level = 0; level < LEVEL_MAX; level++)
+        l.segments[level][0].count = pad(row_counts[level]);
+    return l;
+}
+
+/// With one, rows come in pairs from level 3 on, where the pairs of a level fill whole blocks of 8;
+/// below, nothing would be gained. In a column: the other rows up to level 3; all pairs; the other
+/// rows of level 4.
+static layout mirrored_positions(void) {
+    layout l = {0};
+    add_segment(&l, PAIRED, 0, pair_rows[PAIRED]);
+    for (int level = 0; level < PAIRED; level++)
+        l.segments[level][0].count = pad(row_counts[level]);
+    add_pairs(&l);
+    add_segment(&l, LEVEL_MAX, row_counts[LEVEL_MAX - 1],
+                pair_rows[LEVEL_MAX] - row_counts[LEVEL_MAX - 1]);
+    return l;
+}
+
+/// The first row inside that a level adds.
+static int first_inside(int level) {
+    return row_counts[level - 1] + CORNERS * (1 << (level - 1));
+}
+
+/// Appends two blocks for every edge: its rows up to level 3, with one of the rows inside that
+/// level 2 adds, and its rows of level 4.
+static void add_edges(layout *l) {
+    static const int along[EDGE_ROWS] = {8, 4, 12, -1, 2, 6, 10, 14, 1, 3, 5, 7, 9, 11, 13, 15};
+    static const int counts[LEVEL_COUNT] = {0, 1, 4, 8, 16};
+    for (int edge = 0; edge < CORNERS; edge++) {
+        for (int r = 0; r < EDGE_ROWS; r++) {
+            const point p =
+                along[r] > 0 ? edge_point(edge, along[r]) : rows[first_inside(2) + edge];
+            l->rows[l->row_stride++] = row_at(p.i, p.j);
+        }
+    }
     for (int level = 0; level < LEVEL_COUNT; level++)
-        printf("            {{0, 0, %d}},\n", pad(row_counts[level]));
-    printf("        },\n    .row_stride = %d,\n};\n\n", pad(row_counts[LEVEL_MAX]));
+        l->edge_counts[level] = counts[level];
+}
+
+/// Tangents, which corners do not need: edges; then what is inside, level by level.
+static layout tangents(bool mirrored) {
+    layout l = {0};
+    add_edges(&l);
+    for (int level = PAIRED; level < LEVEL_COUNT; level++) {
+        const int first = first_inside(level);
+        add_segment(&l, level, first, (mirrored ? pair_rows : row_counts)[level] - first);
+        if (mirrored && level == PAIRED) add_pairs(&l);
+    }
+    return l;
+}
+
+static void print_rows_of(const char *name, const layout *l) {
+    printf("static const uint16_t %s_rows[] = {", name);
+    for (int r = 0; r < l->row_stride; r++)
+        printf("%s%d", r == 0 ? "" : r % 16 == 0 ? ",\n    " : ", ", l->rows[r]);
+    printf("};\n\n");
 }
 
 static void print_blocks(const char *name, const int first_rows[LEVEL_COUNT]) {
@@ -173,26 +260,38 @@ static void print_blocks(const char *name, const int first_rows[LEVEL_COUNT]) {
     printf("},\n");
 }
 
-/// With one, rows come in pairs from level 3 on, where the pairs of a level fill whole blocks of 8;
-/// below, nothing would be gained. In a column: the other rows up to level 3; all pairs; the other
-/// rows of level 4.
-static void print_mirrored_layout(void) {
-    int pair_counts[LEVEL_COUNT] = {0};
-    for (int level = PAIRED; level < LEVEL_COUNT; level++)
-        pair_counts[level] = pair_counts[level - 1] + mirror_rows[level] - pair_rows[level];
-    const int first = pad(pair_rows[PAIRED]), last_row = row_counts[LEVEL_MAX - 1];
-    const int last = pad(pair_rows[LEVEL_MAX] - last_row);
-    print_segments("triangle_mirrored");
-    for (int level = 0; level < PAIRED; level++)
-        printf("            {{0, 0, %d}},\n", pad(row_counts[level]));
-    printf("            {{0, 0, %d}},\n", first);
-    printf("            {{0, 0, %d}, {%d, %d, %d}},\n        },\n", first,
-           first + pair_counts[LEVEL_MAX], last_row, last);
-    print_list("pair_counts", pair_counts);
-    printf("    .pair_table_row = %d,\n", first);
-    print_blocks("pair_rows", pair_rows);
-    print_blocks("mirror_rows", mirror_rows);
-    printf("    .row_stride = %d,\n};\n\n", first + pair_counts[LEVEL_MAX] + last);
+static void print_layout(const char *rows_name, const layout *l) {
+    printf("    {.row_stride = %d,\n    .rows = %s_rows,\n    .segments = {\n", l->row_stride,
+           rows_name);
+    for (int level = 0; level < LEVEL_COUNT; level++) {
+        const segment *const s = l->segments[level];
+        printf("        {{%d, %d, %d}, {%d, %d, %d}},\n", s[0].table_row, s[0].row, s[0].count,
+               s[1].table_row, s[1].row, s[1].count);
+    }
+    printf("    },\n");
+    if (l->pair_counts[LEVEL_MAX]) {
+        print_list("pair_counts", l->pair_counts);
+        printf("    .pair_table_row = %d,\n", l->pair_table_row);
+        print_blocks("pair_rows", pair_rows);
+        print_blocks("mirror_rows", mirror_rows);
+    }
+    print_list("edge_counts", l->edge_counts);
+    printf("    },\n");
+}
+
+static void print_layouts(void) {
+    const layout layouts[4] = {plain_positions(), mirrored_positions(), tangents(false),
+                               tangents(true)};
+    static const char *const names[4] = {"plain_position", "mirrored_position", "plain_tangent",
+                                         "mirrored_tangent"};
+    for (int l = 0; l < 4; l++)
+        print_rows_of(names[l], &layouts[l]);
+    for (int l = 0; l < 4; l++) {
+        if (l % 2 == 0)
+            printf("const limni_layout limni_%s_triangle[2] = {\n", l ? "tangents" : "positions");
+        print_layout(names[l], &layouts[l]);
+        if (l % 2) printf("};\n\n");
+    }
 }
 
 int main(void) {
@@ -205,8 +304,7 @@ int main(void) {
     print_edges();
     for (int level = 0; level < LEVEL_COUNT; level++)
         index_counts[level] = print_indices(level);
-    print_plain_layout();
-    print_mirrored_layout();
+    print_layouts();
     printf("const limn_domain limni_domain_triangle = {\n"
            "    .kind = LIMN_DOMAIN_TRIANGLE,\n    .corner_count = %d,\n",
            CORNERS);

@@ -11,10 +11,13 @@
 #include "limn/format.h"
 #include "limn/limn.h"
 
+/// LIMNI_INLINE: where a constant argument decides what a function is.
 #if defined(__GNUC__)
 #define LIMNI_NOINLINE __attribute__((noinline))
+#define LIMNI_INLINE inline __attribute__((always_inline))
 #else
 #define LIMNI_NOINLINE
+#define LIMNI_INLINE inline
 #endif
 
 /// Before a loop over the vectors of a tile: unrolled early, so that its arrays become registers.
@@ -36,15 +39,16 @@ LIMN_STATIC_ASSERT(LIMNI_PLAIN_TERMS == LIMN_FORMAT_PAIRED_MAX, "pairs are summe
 
 /// Consecutive patches of one class.
 typedef struct limni_run {
-    const float *table;      ///< [control_count][row_stride], columns aligned to 32 bytes
+    const float *table;      ///< of positions: [control_count][row_stride], columns aligned to 32
+                             ///< bytes; behind it, perhaps, the two of tangents
     const uint32_t *indices; ///< [patch_count][control_count], by slot
     const void *slots; ///< the same shape, slot_size bytes each: in ascending order of the indices
-    const limni_layout *layout; ///< of the table
+    const limni_layout *layout;         ///< of positions
+    const limni_layout *tangent_layout; ///< with the same stride
     uint32_t control_count;
     uint32_t pair_count; ///< mirrored control points: slots 1 and 2, 3 and 4, …; 0: no symmetry
-    size_t
-        table_stride;   ///< floats from the positions' table to the tangents', and on to the second
-    uint32_t slot_size; ///< 1 or 2
+    size_t table_stride; ///< floats from table to table
+    uint32_t slot_size;  ///< 1 or 2
     uint32_t patch_count;
     const limn_plan_patch
         *items;           ///< [patch_count] what is wanted of which patches, from one class;
@@ -77,7 +81,7 @@ typedef struct limni_target {
 typedef struct limni_ring {
     uint32_t control, count;
     const uint32_t *controls; ///< [count]
-    const float *weights;     ///< [2][1 + count], the first of the control point itself
+    const float *weights;     ///< [2][count], which apply relative to the control point
 } limni_ring;
 
 static inline limni_ring limni_ring_of(const limn_mesh *mesh, uint32_t control) {

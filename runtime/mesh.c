@@ -20,7 +20,8 @@ limni_run limni_run_part(const limn_mesh *mesh, const limn_file_run *run, uint32
                          uint32_t end) {
     const limn_file_class *const class = &mesh->classes[run->class_index];
     const uint32_t slot_size = limn_file_slot_size(class);
-    const limni_layout *const layout = limni_layout_get(mesh->domain->kind, class->pair_count);
+    const limn_domain_kind kind = mesh->domain->kind;
+    const limni_layout *const layout = limni_layout_get(kind, false, class->pair_count);
     const size_t skipped = (size_t)begin * class->control_count;
     return (limni_run){
         .table = mesh->tables + class->table_offset / sizeof(float),
@@ -28,6 +29,7 @@ limni_run limni_run_part(const limn_mesh *mesh, const limn_file_run *run, uint32
         .slots = mesh->slots + run->first_slot + skipped * slot_size,
         .control_count = class->control_count,
         .layout = layout,
+        .tangent_layout = limni_layout_get(kind, true, class->pair_count),
         .table_stride = (size_t) class->control_count * layout->row_stride,
         .pair_count = class->pair_count,
         .slot_size = slot_size,

@@ -298,7 +298,7 @@ static limn_result validate_normals(const limn_pack *pack, const limn_mesh *mesh
     for (uint32_t c = 0; c < mesh->control_count; c++) {
         const limn_file_normal *const normal = &mesh->normals[c];
         if ((uint64_t)normal->first_ring + normal->ring_count > ring_size ||
-            normal->first_weight + 2 * ((uint64_t)normal->ring_count + 1) > weight_count)
+            normal->first_weight + 2 * (uint64_t)normal->ring_count > weight_count)
             return LIMN_ERROR_NORMALS;
     }
     for (uint64_t r = 0; r < ring_size; r++) {

@@ -7,19 +7,17 @@
 
 enum { CONTROL_BLOCK = 64 };
 
-/// Two weighted sums of a control point and its ring, relative to the origin, into place i.
-static inline void sum_tangents(const limni_ring *ring, const float *controls, quad origin,
-                                size_t i, vectors *along, vectors *across) {
-    const float *const first = ring->weights, *const second = first + ring->count + 1;
-    const quad centre =
-        quad_subtract(quad_load_point(controls + 3 * (size_t)ring->control), origin);
-    quad a = quad_multiply(quad_splat(first[0]), centre);
-    quad b = quad_multiply(quad_splat(second[0]), centre);
+/// Two weighted sums of the ring of a control point, relative to it, into place i.
+static inline void sum_ring(const limni_ring *ring, const float *controls, size_t i, vectors *along,
+                            vectors *across) {
+    const float *const first = ring->weights, *const second = first + ring->count;
+    const quad centre = quad_load_point(controls + 3 * (size_t)ring->control);
+    quad a = quad_splat(0), b = quad_splat(0);
     for (uint32_t r = 0; r < ring->count; r++) {
         const size_t other = ring->controls[r];
-        const quad point = quad_subtract(quad_load_point(controls + 3 * other), origin);
-        a = quad_add(a, quad_multiply(quad_splat(first[1 + r]), point));
-        b = quad_add(b, quad_multiply(quad_splat(second[1 + r]), point));
+        const quad point = quad_subtract(quad_load_point(controls + 3 * other), centre);
+        a = quad_add(a, quad_multiply(quad_splat(first[r]), point));
+        b = quad_add(b, quad_multiply(quad_splat(second[r]), point));
     }
     _Alignas(16) float tangents[2][4];
     quad_store(tangents[0], a);
@@ -32,7 +30,6 @@ static inline void sum_tangents(const limni_ring *ring, const float *controls, q
 
 /// Reproducible in both families: patches of either take them for their corners.
 static void find_control_normals(const limn_mesh *mesh, const float *controls, float *normals) {
-    const quad origin = quad_load_point(mesh->origin);
     vectors along, across;
     for (uint32_t first = 0; first < mesh->control_count; first += CONTROL_BLOCK) {
         const uint32_t left = mesh->control_count - first;
@@ -43,9 +40,9 @@ static void find_control_normals(const limn_mesh *mesh, const float *controls, f
         }
         for (uint32_t i = 0; i < count; i++) {
             const limni_ring ring = limni_ring_of(mesh, first + i);
-            sum_tangents(&ring, controls, origin, i, &along, &across);
+            sum_ring(&ring, controls, i, &along, &across);
         }
-        find_normals(&across, count, &along);
+        find_normals(&across, 0, count, &along);
         for (uint32_t i = 0; i < count; i++) {
             for (size_t axis = 0; axis < 3; axis++)
                 normals[3 * ((size_t)first + i) + axis] = along.axes[axis][i];

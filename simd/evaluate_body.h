@@ -28,13 +28,18 @@ static inline void set_term(term *dst, quad point, uint32_t column) {
 }
 
 /// The control points of one patch in ascending order.
-static inline void gather(const uint32_t *indices, const void *slots, uint32_t slot_size,
-                          size_t count, uint32_t row_stride, const float *controls, quad origin,
-                          term *out) {
+///
+/// absolute  the same relative to nothing; NULL: not wanted
+static LIMNI_INLINE void gather(const uint32_t *indices, const void *slots, uint32_t slot_size,
+                                size_t count, uint32_t row_stride, const float *controls,
+                                quad origin, term *out, term *absolute) {
+    LIMNI_UNROLL_TWICE
     for (size_t k = 0; k < count; k++) {
         const size_t slot = slot_of(slots, slot_size, k);
-        set_term(&out[k], gather_point(controls, indices[slot], origin),
-                 (uint32_t)slot * row_stride);
+        const uint32_t column = (uint32_t)slot * row_stride;
+        const quad point = quad_load_point(controls + 3 * (size_t)indices[slot]);
+        set_term(&out[k], quad_subtract(point, origin), column);
+        if (absolute) set_term(&absolute[k], point, column);
     }
 }
 
@@ -121,15 +126,40 @@ typedef struct wanted {
     const limn_plan_patch *item;  ///< NULL: all rows where they are
     const uint32_t *corners;      ///< control points
     const float *control_normals; ///< NULL: no normals
+    const limni_layout *layout;   ///< of tangents
+    uint32_t level;
     size_t row_count;
 } wanted;
 
-/// Unit normals from tangents, in place of the first of them, as they will be written.
+/// The normals of rows that were staged. The places of the first four are anywhere; then four, and
+/// at last eight, are consecutive.
+static inline void place_edge_normals(const limni_layout *layout, size_t corner_count,
+                                      uint32_t level, vectors *normals) {
+    const size_t count = layout->edge_counts[level], padded = limni_padded(count);
+    for (size_t edge = 0; edge < corner_count; edge++) {
+        const uint16_t *const places = &layout->rows[edge * LIMNI_EDGE_ROWS];
+        const size_t staged = STAGED + edge * padded;
+        for (size_t r = 0; r < count && r < 4; r++)
+            copy_row(normals, staged + r, places[r]);
+        for (size_t r = 4; r < count; r += 4)
+            copy_four_rows(normals, staged + r, places[r]);
+    }
+}
+
+/// Unit normals from tangents, in place of the first of them, as they will be written. Vectors of
+/// rows inside go on into rows of edges, which therefore come later.
 static inline void make_normals(const limni_target *target, const wanted *what, scratch *rows) {
-    find_normals(&rows->across, what->row_count, &rows->along);
-    set_corner_normals(what->corners, target->domain->corner_count, what->control_normals,
-                       &rows->along);
-    if (what->item) morph_patch(target->domain, what->item, true, &rows->along);
+    const limn_domain *const domain = target->domain;
+    for (uint32_t level = LIMNI_INSIDE_LEVEL; level <= what->level; level++) {
+        const size_t first = limni_first_inside(domain, level);
+        find_normals(&rows->across, first, domain->row_counts[level] - first, &rows->along);
+    }
+    find_normals(&rows->across, STAGED,
+                 domain->corner_count * limni_padded(what->layout->edge_counts[what->level]),
+                 &rows->along);
+    place_edge_normals(what->layout, domain->corner_count, what->level, &rows->along);
+    set_corner_normals(what->corners, domain->corner_count, what->control_normals, &rows->along);
+    if (what->item) morph_patch(domain, what->item, true, &rows->along);
     pack_normals(target->normal_format, what->row_count, &rows->along);
 }
 
@@ -149,54 +179,120 @@ static LIMNI_NOINLINE void store_patch(const limni_target *target, const parts *
 
 // ---- Summing
 
-/// Sums the rows of one table.
-static inline void sum_table(const patch *p, const limni_layout *layout, uint32_t level,
-                             bool negate, vectors *rows) {
-    const bool is_long = p->all.end - p->all.begin > LIMNI_PLAIN_TERMS;
+/// One patch of a run.
+typedef struct chosen {
+    const uint32_t *indices; ///< [control_count]
+    const void *slots;       ///< [control_count]
+    uint32_t level;
+} chosen;
+
+/// The terms of one patch.
+typedef struct lists {
+    term *ascending; ///< [control_count]
+    term *absolute;  ///< [LIMNI_PLAIN_TERMS] the same relative to nothing; NULL: not wanted
+    term *folded;    ///< [LIMNI_PLAIN_TERMS]
+} lists;
+
+/// Where the terms of a patch come from.
+typedef struct gathering {
+    const float *controls;
+    uint32_t slot_size;
+    lists to;
+} gathering;
+
+/// Both tangents of some rows. They are differences, and precise relative to a point near by.
+static inline void sum_tangent_segment(const patch *p, const limni_run *run, const chosen *which,
+                                       const gathering *g, const float *origin,
+                                       const limni_segment *segment, scratch *rows) {
+    vectors *const out[2] = {&rows->along, &rows->across};
+    if (g->to.absolute) {
+        sum_tangent_rows(p, run->table_stride, origin, segment, out);
+        return;
+    }
+    patch table = *p;
+    gather(which->indices, which->slots, g->slot_size, run->control_count, run->layout->row_stride,
+           g->controls, quad_load_point(origin), g->to.ascending, NULL);
+    sum_long_rows(&table, segment, out[0]);
+    table.table += run->table_stride;
+    sum_long_rows(&table, segment, out[1]);
+}
+
+/// Both tangents of all rows but the corners, of a patch whose positions are done. Those of edges
+/// are relative to the end that comes first, as both patches know it, and staged.
+static inline void sum_tangents(const patch *positions, const limni_run *run, const chosen *which,
+                                const gathering *g, size_t corner_count, scratch *rows) {
+    static const float nowhere[3] = {0};
+    const limni_layout *const layout = run->tangent_layout;
+    const uint32_t *const corners = which->indices;
+    const uint32_t level = which->level;
+    const size_t edge_count = limni_padded(layout->edge_counts[level]);
+    patch p = *positions;
+    p.table += run->table_stride;
+    p.origin = p.pair_origin = nowhere;
+    if (g->to.absolute) p.all = (terms){g->to.absolute, g->to.absolute + run->control_count};
+    for (size_t edge = 0; edge < corner_count && edge_count; edge++) {
+        const uint32_t a = corners[edge], b = corners[edge + 1 < corner_count ? edge + 1 : 0];
+        const limni_segment segment = {.table_row = (uint16_t)(edge * LIMNI_EDGE_ROWS),
+                                       .row = (uint16_t)(STAGED + edge * edge_count),
+                                       .count = (uint16_t)edge_count};
+        sum_tangent_segment(&p, run, which, g, g->controls + 3 * (size_t)(a < b ? a : b), &segment,
+                            rows);
+    }
+    for (int s = 0; s < LIMNI_SEGMENT_MAX && layout->segments[level][s].count; s++)
+        sum_tangent_segment(&p, run, which, g, g->controls + 3 * (size_t)corners[0],
+                            &layout->segments[level][s], rows);
+    if (!layout->pair_counts[level]) return;
+    sum_pairs(&p, layout, layout->pair_counts[level], false, &rows->along);
+    p.table += run->table_stride;
+    sum_pairs(&p, layout, layout->pair_counts[level], true,
+              &rows->across); // a mirror turns its sign
+}
+
+/// All sums of one patch.
+static inline void sum_patch(patch *p, const limni_run *run, const chosen *which,
+                             const gathering *g, quad origin, const limn_domain *domain,
+                             bool normals, scratch *rows) {
+    const limni_layout *const layout = run->layout;
+    const uint32_t level = which->level, row_stride = layout->row_stride;
+    const size_t count = run->control_count;
+    if (g->to.absolute) {
+        gather(which->indices, which->slots, g->slot_size, count, row_stride, g->controls, origin,
+               g->to.ascending, g->to.absolute);
+    } else {
+        gather(which->indices, which->slots, g->slot_size, count, row_stride, g->controls, origin,
+               g->to.ascending, NULL);
+    }
+    if (layout->pair_counts[level])
+        gather_pairs(which->indices, count, run->pair_count, row_stride, g->controls, g->to.folded);
+    p->pair_origin = g->controls + 3 * (size_t)which->indices[0];
     for (int s = 0; s < LIMNI_SEGMENT_MAX && layout->segments[level][s].count; s++) {
-        if (is_long) {
-            sum_long_rows(p, &layout->segments[level][s], rows);
+        if (count > LIMNI_PLAIN_TERMS) {
+            sum_long_rows(p, &layout->segments[level][s], &rows->positions);
         } else {
-            sum_rows(p, &layout->segments[level][s], rows);
+            sum_rows(p, &layout->segments[level][s], &rows->positions);
         }
     }
-    if (layout->pair_counts[level]) sum_pairs(p, layout, layout->pair_counts[level], negate, rows);
+    if (layout->pair_counts[level])
+        sum_pairs(p, layout, layout->pair_counts[level], false, &rows->positions);
+    if (normals) sum_tangents(p, run, which, g, domain->corner_count, rows);
 }
 
-/// pair_origin  [3] the control point of slot 0
-static inline void sum_patch(patch *p, const limni_run *run, const limni_points *from,
-                             const float *pair_origin, uint32_t level, scratch *rows) {
-    static const float nowhere[3] = {0};
-    p->table = run->table;
-    p->origin = from->origin;
-    p->pair_origin = pair_origin;
-    sum_table(p, run->layout, level, false, &rows->positions);
-    if (!from->normals) return;
-    p->table += run->table_stride;
-    p->origin = p->pair_origin = nowhere;
-    sum_table(p, run->layout, level, false, &rows->along);
-    p->table += run->table_stride;
-    sum_table(p, run->layout, level, true, &rows->across); // a mirror turns its sign
-}
-
-/// ascending, folded  room for the control points of one patch
-static inline void evaluate_patches(const limni_run *run, uint32_t slot_size, term *ascending,
-                                    term *folded, const limni_points *from,
-                                    const limni_target *target) {
+static inline void evaluate_patches(const limni_run *run, const gathering *g,
+                                    const limni_points *from, const limni_target *target) {
     // What does not change from patch to patch is set up once: the compiler cannot know that stores
     // of vectors leave it alone.
-    const size_t count = run->control_count, pair_count = run->pair_count;
-    const uint32_t row_stride = run->layout->row_stride;
-    const float *const controls = from->controls;
+    const size_t count = run->control_count;
     const quad origin = quad_load_point(from->origin);
     const part position = position_part(target), normal = normal_part(target);
     parts to;
     arrange_parts(&position, from->normals ? &normal : NULL, &to);
-    const size_t even_count = count - 1 - pair_count;
-    patch p = {.all = {ascending, ascending + count}};
-    if (pair_count) {
-        p.even = (terms){folded, folded + even_count};
-        p.odd = (terms){folded + even_count, folded + (count - 1)};
+    const size_t even_count = count - 1 - run->pair_count;
+    patch p = {.table = run->table,
+               .origin = from->origin,
+               .all = {g->to.ascending, g->to.ascending + count}};
+    if (run->pair_count) {
+        p.even = (terms){g->to.folded, g->to.folded + even_count};
+        p.odd = (terms){g->to.folded + even_count, g->to.folded + (count - 1)};
     }
     scratch rows;
     clear_padding(target->domain, &rows.positions);
@@ -205,19 +301,18 @@ static inline void evaluate_patches(const limni_run *run, uint32_t slot_size, te
 
     for (size_t i = 0; i < run->patch_count; i++) {
         const limn_plan_patch *const item = run->items ? &run->items[i] : NULL;
-        const uint32_t level = item ? item->level : target->level;
         const size_t at = item ? item->patch - run->first_patch : i;
-        const uint32_t *const indices = run->indices + at * count;
-        const unsigned char *const slots =
-            (const unsigned char *)run->slots + at * count * slot_size;
+        const chosen which = {.indices = run->indices + at * count,
+                              .slots =
+                                  (const unsigned char *)run->slots + at * count * g->slot_size,
+                              .level = item ? item->level : target->level};
+        sum_patch(&p, run, &which, g, origin, target->domain, from->normals, &rows);
         const wanted what = {.item = item,
-                             .corners = indices,
+                             .corners = which.indices,
                              .control_normals = from->normals,
-                             .row_count = target->domain->row_counts[level]};
-        gather(indices, slots, slot_size, count, row_stride, controls, origin, ascending);
-        if (run->layout->pair_counts[level])
-            gather_pairs(indices, count, pair_count, row_stride, controls, folded);
-        sum_patch(&p, run, from, controls + 3 * (size_t)indices[0], level, &rows);
+                             .layout = run->tangent_layout,
+                             .level = which.level,
+                             .row_count = target->domain->row_counts[which.level]};
         to.first = item ? item->first_vertex : i * what.row_count;
         store_patch(target, &to, &what, &rows);
     }
@@ -225,13 +320,21 @@ static inline void evaluate_patches(const limni_run *run, uint32_t slot_size, te
 
 static void evaluate_run(const limni_run *run, const limni_points *from,
                          const limni_target *target) {
+    _Alignas(16) term absolute[LIMNI_PLAIN_TERMS], folded[LIMNI_PLAIN_TERMS];
+    const bool apart = from->normals && run->control_count <= LIMNI_PLAIN_TERMS;
+    gathering g = {.controls = from->controls,
+                   .slot_size = run->slot_size,
+                   .to = {.absolute = apart ? absolute : NULL, .folded = folded}};
     if (run->slot_size == 1) {
         _Alignas(16) term ascending[LIMN_FORMAT_NARROW_SLOTS];
-        _Alignas(16) term folded[LIMNI_PLAIN_TERMS];
-        evaluate_patches(run, 1, ascending, folded, from, target);
+        g.slot_size = 1;
+        g.to.ascending = ascending;
+        evaluate_patches(run, &g, from, target);
     } else {
         _Alignas(16) term ascending[LIMN_FORMAT_CONTROLS_MAX];
-        evaluate_patches(run, 2, ascending, ascending, from, target);
+        g.slot_size = 2;
+        g.to.ascending = ascending;
+        evaluate_patches(run, &g, from, target);
     }
     if (target->streaming) lanes_stream_end();
     lanes_end();

@@ -64,14 +64,14 @@ static inline lanes inverse_root(lanes a) {
     return root;
 }
 
-/// Unit normals from two tangents, in place of the first. Along a shared edge the neighbour has
+/// Unit normals from the two tangents of rows [row, row + count), in place of the first. Along a shared edge the neighbour has
 /// both tangents negated, bit for bit, so that products, and all that follows, are the same but for
 /// the signs of zeros; adding +0 makes those alike. Where the cross product is too short or too
 /// long to be squared, the normal is (0, 0, 1).
-static inline void find_normals(const vectors *across, size_t row_count, vectors *along) {
+static inline void find_normals(const vectors *across, size_t row, size_t count, vectors *along) {
     const lanes zero = lanes_zero(), one = lanes_splat(1.0f);
     const lanes least = lanes_splat(LEAST_SQUARE), most = lanes_splat(MOST_SQUARE);
-    for (size_t row = 0; row < row_count; row += LANES_WIDTH) {
+    for (const size_t end = row + count; row < end; row += LANES_WIDTH) {
         const lanes ax = lanes_load_any(&along->axes[0][row]);
         const lanes ay = lanes_load_any(&along->axes[1][row]);
         const lanes az = lanes_load_any(&along->axes[2][row]);

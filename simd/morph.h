@@ -48,11 +48,6 @@ static inline void move_row(vectors *rows, bool normals, const uint16_t parents[
     }
 }
 
-static inline void copy_row(vectors *rows, uint32_t from, uint32_t to) {
-    for (int axis = 0; axis < 3; axis++)
-        rows->axes[axis][to] = rows->axes[axis][from];
-}
-
 /// The rows of one edge: new ones move, and those that the edge does not have go to where the
 /// template moves them, for the sake of their children inside.
 static inline void morph_edge(const limn_domain *domain, uint32_t edge, uint32_t level,
@@ -76,9 +71,7 @@ static inline void morph_patch(const limn_domain *domain, const limn_plan_patch 
         morph_edge(domain, edge, level, item->edge_levels[edge], item->edge_morphs[edge], normals,
                    rows);
     if (item->morph == 1) return;
-    const uint32_t inside =
-        domain->row_counts[level - 1] + domain->corner_count * (LIMN_GRID_SIZE >> (5 - level));
-    for (uint32_t row = inside; row < domain->row_counts[level]; row++)
+    for (uint32_t row = limni_first_inside(domain, level); row < domain->row_counts[level]; row++)
         move_row(rows, normals, domain->rows[row].parents, row, item->morph);
 }
 

@@ -15,10 +15,23 @@
 
 /// A vector for every row of one patch: structure of arrays, in L1. Loops over rows go on to the
 /// end of a vector.
-enum { PLANE = LIMNI_ROW_MAX + LANES_WIDTH };
+enum {
+    STAGED = LIMNI_ROW_MAX, ///< from here on, rows of edges wait for their places
+    PLANE = STAGED + LIMN_CORNER_MAX * LIMNI_EDGE_ROWS + LANES_WIDTH
+};
 typedef struct vectors {
     _Alignas(64) float axes[3][PLANE];
 } vectors;
+
+static inline void copy_row(vectors *rows, size_t from, size_t to) {
+    for (int axis = 0; axis < 3; axis++)
+        rows->axes[axis][to] = rows->axes[axis][from];
+}
+
+static inline void copy_four_rows(vectors *rows, size_t from, size_t to) {
+    for (int axis = 0; axis < 3; axis++)
+        quad_store(&rows->axes[axis][to], quad_load(&rows->axes[axis][from]));
+}
 
 /// A control point relative to some origin, and its column.
 typedef struct term {
@@ -36,7 +49,7 @@ typedef struct terms {
 typedef struct patch {
     const float *table;
     const float *origin;      ///< [3] added to every sum
-    terms all;                ///< in ascending order of the control points
+    terms all;                ///< rows on edges: in ascending order of the control points
     const float *pair_origin; ///< where the class has pairs: the same for those
     terms even, odd;          ///< see sum_pair_tile()
 } patch;
@@ -46,14 +59,14 @@ typedef struct tile {
     lanes x[LANES_TILE], y[LANES_TILE], z[LANES_TILE];
 } tile;
 
-static inline void clear_tile(tile *t, int count) {
+static LIMNI_INLINE void clear_tile(tile *t, int count) {
     LIMNI_UNROLL
     for (int v = 0; v < count; v++)
         t->x[v] = t->y[v] = t->z[v] = lanes_zero();
 }
 
 /// Adds terms to rows `columns`, the table from the first of these rows on.
-static inline void add_to_tile(tile *t, int count, const float *columns, terms of) {
+static LIMNI_INLINE void add_to_tile(tile *t, int count, const float *columns, terms of) {
     LIMNI_UNROLL_TWICE
     for (const term *k = of.begin; k != of.end; k++) {
         const float *const column = columns + k->column;
@@ -80,7 +93,8 @@ static inline void store_sums(const tile *t, int v, const float *origin, size_t 
 // ---- Rows one by one
 
 /// Rows [table_row, table_row + count * LANES_WIDTH) of the columns.
-static inline void sum_tile(const patch *p, size_t table_row, size_t row, int count, vectors *out) {
+static LIMNI_INLINE void sum_tile(const patch *p, size_t table_row, size_t row, int count,
+                                  vectors *out) {
     tile sums;
     clear_tile(&sums, count);
     add_to_tile(&sums, count, p->table + table_row, p->all);
@@ -111,6 +125,59 @@ static LIMNI_NOINLINE void sum_rows(const patch *p, const limni_segment *segment
     }
 }
 
+// ---- Tangents
+
+/// Adds a term relative to `origin` to both tangents of the same rows.
+static LIMNI_INLINE void add_to_tangents(const term *k, const lanes origin[3],
+                                         const float *const columns[2], int count, tile sums[2]) {
+    const lanes x = lanes_subtract(lanes_splat(k->point[0]), origin[0]);
+    const lanes y = lanes_subtract(lanes_splat(k->point[1]), origin[1]);
+    const lanes z = lanes_subtract(lanes_splat(k->point[2]), origin[2]);
+    LIMNI_UNROLL
+    for (int t = 0; t < 2; t++) {
+        LIMNI_UNROLL
+        for (int v = 0; v < count; v++) {
+            const lanes coefficient = lanes_load(columns[t] + k->column + v * LANES_WIDTH);
+            sums[t].x[v] = lanes_multiply_add(coefficient, x, sums[t].x[v]);
+            sums[t].y[v] = lanes_multiply_add(coefficient, y, sums[t].y[v]);
+            sums[t].z[v] = lanes_multiply_add(coefficient, z, sums[t].z[v]);
+        }
+    }
+}
+
+/// Both tangents of rows [table_row, table_row + count * LANES_WIDTH) of the columns.
+static LIMNI_INLINE void sum_tangent_tile(const patch *p, size_t table_stride, const float *origin,
+                                          size_t table_row, size_t row, int count,
+                                          vectors *const out[2]) {
+    static const float nowhere[3] = {0};
+    const lanes from[3] = {lanes_splat(origin[0]), lanes_splat(origin[1]), lanes_splat(origin[2])};
+    const float *const table = p->table + table_row;
+    const float *const columns[2] = {table, table + table_stride};
+    tile sums[2];
+    clear_tile(&sums[0], count);
+    clear_tile(&sums[1], count);
+    for (const term *k = p->all.begin; k != p->all.end; k++)
+        add_to_tangents(k, from, columns, count, sums);
+    LIMNI_UNROLL
+    for (int v = 0; v < count; v++) {
+        store_sums(&sums[0], v, nowhere, row + (size_t)v * LANES_WIDTH, out[0]);
+        store_sums(&sums[1], v, nowhere, row + (size_t)v * LANES_WIDTH, out[1]);
+    }
+}
+
+/// Both tangents of rows, in tables `table_stride` apart; the terms are relative to nothing.
+static LIMNI_NOINLINE void sum_tangent_rows(const patch *p, size_t table_stride,
+                                            const float *origin, const limni_segment *segment,
+                                            vectors *const out[2]) {
+    enum { HALF = LANES_TILE / 2 > 0 ? LANES_TILE / 2 : 1, STEP = HALF * LANES_WIDTH };
+    const size_t table_row = segment->table_row, row = segment->row;
+    size_t at = 0;
+    for (; at + STEP <= segment->count; at += STEP)
+        sum_tangent_tile(p, table_stride, origin, table_row + at, row + at, HALF, out);
+    for (; at < segment->count; at += LANES_WIDTH)
+        sum_tangent_tile(p, table_stride, origin, table_row + at, row + at, 1, out);
+}
+
 // ---- Pairs of rows
 
 LIMN_STATIC_ASSERT(LANES_PAIR_TILE *LANES_WIDTH % LIMN_FORMAT_ROW_BLOCK == 0,
@@ -136,8 +203,8 @@ static inline void store_pair(lanes second, float *row, float *image) {
 ///
 /// at      the first pair
 /// negate  a row's image is the mirrored row with the opposite sign: r' = o - e
-static inline void sum_pair_tile(const patch *p, const limni_layout *layout, size_t at, int count,
-                                 bool negate, vectors *out) {
+static LIMNI_INLINE void sum_pair_tile(const patch *p, const limni_layout *layout, size_t at,
+                                       int count, bool negate, vectors *out) {
     const float *const columns = p->table + layout->pair_table_row + at;
     const uint16_t *const rows = &layout->pair_rows[at / LIMN_FORMAT_ROW_BLOCK];
     const uint16_t *const images = &layout->mirror_rows[at / LIMN_FORMAT_ROW_BLOCK];

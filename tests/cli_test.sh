@@ -270,7 +270,7 @@ for key in file version size table_size class_count meshes name faces control_po
     bytes_per_face classes use_count; do
     says stdout "^ *\"$key\": "
 done
-expect "version" "$(json version)" 2
+expect "version" "$(json version)" 3
 expect "size" "$(json size)" "$(size_of several.limn)"
 expect "meshes" "$(grep -c '"bytes_per_face"' stdout.txt)" 4
 expect "names" "$(sed -n 's/^ *"name": "\(.*\)",*$/\1/p' stdout.txt | tr '\n' ' ')" "torus32 sail cube torus32 "

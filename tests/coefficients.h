@@ -13,23 +13,23 @@ typedef struct column_place {
 } column_place;
 
 static inline column_place place_of_row(const limni_layout *layout, uint32_t row) {
-    for (uint32_t b = 0; b < layout->pair_counts[LIMN_LEVEL_MAX] / LIMN_FORMAT_ROW_BLOCK; b++) {
-        const uint32_t first = layout->pair_table_row + b * LIMN_FORMAT_ROW_BLOCK;
-        const uint32_t own = row - layout->pair_rows[b], image = row - layout->mirror_rows[b];
-        if (own < LIMN_FORMAT_ROW_BLOCK) return (column_place){first + own, true, false};
-        if (image < LIMN_FORMAT_ROW_BLOCK) return (column_place){first + image, true, true};
+    column_place place = {UINT32_MAX, false, false};
+    for (uint32_t at = 0; at < layout->row_stride; at++) {
+        const uint32_t pair = at - layout->pair_table_row;
+        const bool paired = pair < layout->pair_counts[LIMN_LEVEL_MAX];
+        if (layout->rows[at] == row) place = (column_place){at, paired, false};
+        if (paired && layout->mirror_rows[pair / 8] + pair % 8 == row)
+            place = (column_place){at, true, true};
     }
-    const limni_segment *segment = &layout->segments[LIMN_LEVEL_MAX][0];
-    if (row - segment->row >= segment->count) segment++;
-    return (column_place){segment->table_row + row - segment->row, false, false};
+    return place;
 }
 
-/// The coefficient of the control point in `slot` for `row`, from one of the tables of a class. Of
-/// paired rows, it is a sum of two.
-static inline double coefficient_at(const limn_file_class *class, const float *table, uint32_t row,
-                                    uint32_t slot) {
+/// The coefficient of the control point in `slot` for `row`, from the table of positions of a class
+/// or one of tangents. Of paired rows, it is a sum of two.
+static inline double coefficient_at(const limn_file_class *class, bool tangents, const float *table,
+                                    uint32_t row, uint32_t slot) {
     const limni_layout *const layout =
-        limni_layout_get((limn_domain_kind) class->domain, class->pair_count);
+        limni_layout_get((limn_domain_kind) class->domain, tangents, class->pair_count);
     const column_place place = place_of_row(layout, row);
     const float *const rows = table + place.at;
     const double own = (double)rows[(size_t)slot * layout->row_stride];

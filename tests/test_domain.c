@@ -67,30 +67,80 @@ static void test_edges(void) {
     }
 }
 
-/// Rows of a pair are mirror images, and pairs and single rows together are all rows once.
-static void test_layout(void) {
-    const limni_layout *const layout = limni_layout_get(domain->kind, 1);
+/// Rows of a pair are mirror images inside; pairs and single rows together are `wanted` rows, each
+/// once; the rest of a column is padding.
+static void check_places(const limni_layout *layout, uint32_t first_row) {
     int seen[160] = {0};
-    for (uint32_t pair = 0; pair < layout->pair_counts[LIMN_LEVEL_MAX]; pair++) {
-        const uint32_t row = layout->pair_rows[pair / 8] + pair % 8;
+    for (uint32_t place = 0; place < layout->row_stride; place++) {
+        const uint32_t row = layout->rows[place], pair = place - layout->pair_table_row;
+        if (row == LIMNI_NO_ROW) continue;
+        CHECK(row < domain->row_counts[LIMN_LEVEL_MAX]);
+        seen[row]++;
+        if (pair >= layout->pair_counts[LIMN_LEVEL_MAX]) continue;
+        CHECK_EQUAL(row, layout->pair_rows[pair / 8] + pair % 8);
         CHECK_EQUAL(domain->rows[row].mirror, layout->mirror_rows[pair / 8] + pair % 8);
         CHECK(domain->rows[row].edges == 0);
-        CHECK_EQUAL(seen[row]++, 0);
-        CHECK_EQUAL(seen[domain->rows[row].mirror]++, 0);
+        seen[domain->rows[row].mirror]++;
     }
-    for (uint32_t row = 0; row < domain->row_counts[LIMN_LEVEL_MAX]; row++) {
-        const column_place place = place_of_row(layout, row);
-        const limn_row r = domain->rows[row], image = domain->rows[r.mirror];
-        CHECK(image.i == r.j && image.j == r.i);
-        CHECK(place.paired == (seen[row] == 1) && place.at < layout->row_stride);
+    for (uint32_t row = 0; row < domain->row_counts[LIMN_LEVEL_MAX]; row++)
+        CHECK_EQUAL(seen[row], row >= first_row ? 1 : 0);
+}
+
+/// What a level reads is there, is a prefix of what the next one reads, and is all of its rows.
+static void check_levels(const limni_layout *layout, uint32_t first_row) {
+    for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
+        bool read[160] = {false};
+        for (uint32_t s = 0; s < LIMNI_SEGMENT_MAX; s++) {
+            const limni_segment segment = layout->segments[level][s];
+            for (uint32_t r = 0; r < segment.count; r++) {
+                const uint32_t row = layout->rows[segment.table_row + r];
+                if (row == LIMNI_NO_ROW) continue;
+                CHECK_EQUAL(row, segment.row + r);
+                read[row] = true;
+            }
+        }
+        for (uint32_t pair = 0; pair < layout->pair_counts[level]; pair++) {
+            const uint32_t row = layout->rows[layout->pair_table_row + pair];
+            read[row] = read[domain->rows[row].mirror] = true;
+        }
+        for (uint32_t edge = 0; edge < domain->corner_count; edge++) {
+            for (uint32_t r = 0; r < layout->edge_counts[level]; r++)
+                read[layout->rows[edge * LIMNI_EDGE_ROWS + r]] = true;
+        }
+        for (uint32_t row = first_row; row < domain->row_counts[level]; row++)
+            CHECK(read[row]);
+        if (level > 0) {
+            CHECK(layout->pair_counts[level] >= layout->pair_counts[level - 1]);
+            CHECK(layout->edge_counts[level] >= layout->edge_counts[level - 1]);
+        }
     }
-    // What a level reads is a prefix of what the next one reads.
-    for (int level = 1; level < LIMN_LEVEL_COUNT; level++)
-        CHECK(layout->pair_counts[level] >= layout->pair_counts[level - 1]);
+}
+
+/// Places 4 to 7 of an edge, and 8 to 15, are consecutive rows, and but one is on the edge.
+static void check_edges(const limni_layout *layout) {
+    for (uint32_t edge = 0; edge < domain->corner_count; edge++) {
+        const uint16_t *const rows = &layout->rows[edge * LIMNI_EDGE_ROWS];
+        uint32_t on_edge = 0;
+        for (uint32_t r = 0; r < LIMNI_EDGE_ROWS; r++) {
+            on_edge += domain->rows[rows[r]].edges == 1u << edge;
+            CHECK(r < 4 || r % 8 == 0 || r == 4 || rows[r] == rows[r - 1] + 1);
+        }
+        CHECK_EQUAL(on_edge, LIMNI_EDGE_ROWS - 1);
+    }
+}
+
+static void test_layouts(void) {
     for (uint16_t pairs = 0; pairs < 2; pairs++) {
         const limn_file_class class = {.pair_count = pairs};
-        CHECK_EQUAL(limni_layout_get(domain->kind, pairs)->row_stride,
-                    limn_file_row_stride(&class));
+        const limni_layout *const positions = limni_layout_get(domain->kind, false, pairs);
+        const limni_layout *const tangents = limni_layout_get(domain->kind, true, pairs);
+        CHECK_EQUAL(positions->row_stride, limn_file_row_stride(&class));
+        CHECK_EQUAL(tangents->row_stride, limn_file_row_stride(&class));
+        check_places(positions, 0);
+        check_levels(positions, 0);
+        check_places(tangents, domain->corner_count);
+        check_levels(tangents, domain->corner_count);
+        check_edges(tangents);
     }
 }
 
@@ -146,7 +196,7 @@ int main(void) {
     test_parents();
     test_edges();
     test_order();
-    test_layout();
+    test_layouts();
     test_indices();
     return check_report();
 }

@@ -124,7 +124,7 @@ static void check_tables(const limn_mesh *mesh) {
         for (uint32_t row = 0; row < domain->row_counts[LIMN_LEVEL_MAX]; row++) {
             double sum = 0;
             for (uint32_t slot = 0; slot < class->control_count; slot++) {
-                const double coefficient = coefficient_at(class, table, row, slot);
+                const double coefficient = coefficient_at(class, false, table, row, slot);
                 sum += coefficient;
                 smallest = fmin(smallest, coefficient);
             }

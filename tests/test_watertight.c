@@ -137,7 +137,7 @@ static void check_tables(const limn_pack *pack, const limn_mesh *mesh) {
         for (uint32_t row = 0; row < 153; row++) {
             double sum = 0;
             for (uint32_t slot = 0; slot < class->control_count; slot++) {
-                const double coefficient = coefficient_at(class, table, row, slot);
+                const double coefficient = coefficient_at(class, false, table, row, slot);
                 CHECK(coefficient >= -0x1p-26); // below 0 only where it is what two floats leave
                 sum += coefficient;
             }

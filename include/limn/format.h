@@ -22,7 +22,7 @@ extern "C" {
 #endif
 
 #define LIMN_FORMAT_MAGIC "LIMN"
-#define LIMN_FORMAT_VERSION 2u
+#define LIMN_FORMAT_VERSION 3u
 
 /// Alignment of the blob in memory and of every chunk in the file, in bytes.
 #define LIMN_FORMAT_ALIGNMENT 64u
@@ -108,12 +108,12 @@ typedef struct limn_file_class {
 } limn_file_class;
 
 /// How the limit normal of a control point follows from the control points around it: two tangents,
-/// each a weighted sum of the point itself and of its ring. Files with normals have one per control
+/// each a weighted sum of its ring, relative to it. Files with normals have one per control
 /// point.
 typedef struct limn_file_normal {
     uint32_t first_ring;   ///< into the ring chunk: `ring_count` control points
     uint32_t ring_count;   ///< 0: the control point is used by no face
-    uint32_t first_weight; ///< into the weights chunk: [2][1 + ring_count]
+    uint32_t first_weight; ///< into the weights chunk: [2][ring_count]
 } limn_file_normal;
 
 /// Rows of a column, with padding.

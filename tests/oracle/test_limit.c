@@ -36,9 +36,7 @@ static bool compare(const char *path, const limn_bake_desc *desc) {
                    comparison.largest_angle, comparison.mean_angle,
                    (unsigned long long)comparison.degenerate_count);
             CHECK(comparison.largest <= tolerance);
-            // One mesh has faces of a two-thousandth of its size, where rounding shows: see reach.
-            CHECK(comparison.largest_excess <= 5e-4 && comparison.mean_angle <= 2e-5);
-            CHECK(comparison.largest_angle <= 5e-4 || strstr(path, "mannequin-devil"));
+            CHECK(comparison.largest_angle <= 1e-4 && comparison.mean_angle <= 2e-6);
             CHECK(comparison.normal_count > comparison.degenerate_count);
             if (comparison.largest_angle > largest_angle) largest_angle = comparison.largest_angle;
             CHECK(comparison.largest > 0); // two computations that are not the same one
