@@ -80,25 +80,43 @@ static inline size_t store_fours(const part *p, const float *rows, unsigned char
     return row;
 }
 
-/// The same with vertices of one to three words behind one another, a vector of them at a time. A
-/// loop each: the words would be counted again for every vector.
-static inline size_t store_dense(const part *p, const float *rows, unsigned char *base, size_t row,
-                                 size_t end) {
+/// Rows [row, end) of vertices of one to three words behind one another, a vector of them at a
+/// time. A loop each: the words would be counted again for every row.
+static LIMNI_INLINE void store_words(const part *p, size_t word_count, const float *rows,
+                                     unsigned char *base, size_t row, size_t end) {
     const float *const x = rows + p->planes[0];
     const float *const y = rows + p->planes[1], *const z = rows + p->planes[2];
-    float *dst = (float *)(void *)base + row * p->word_count;
-    if (p->word_count == 3) {
-        for (; row + LANES_WIDTH <= end; row += LANES_WIDTH, dst += 3 * LANES_WIDTH)
+    float *dst = (float *)(void *)base + row * word_count;
+    for (; row + LANES_WIDTH <= end; row += LANES_WIDTH, dst += word_count * LANES_WIDTH) {
+        if (word_count == 3) {
             lanes_store_xyz(dst, lanes_load_any(x + row), lanes_load_any(y + row),
                             lanes_load_any(z + row));
-    } else if (p->word_count == 2) {
-        for (; row + LANES_WIDTH <= end; row += LANES_WIDTH, dst += 2 * LANES_WIDTH)
+        } else if (word_count == 2) {
             lanes_store_xy(dst, lanes_load_any(x + row), lanes_load_any(y + row));
-    } else {
-        for (; row + LANES_WIDTH <= end; row += LANES_WIDTH, dst += LANES_WIDTH)
+        } else {
             lanes_store(dst, lanes_load_any(x + row));
+        }
     }
-    return row;
+    for (; row < end; row++, dst += word_count) {
+        dst[0] = x[row];
+        if (word_count > 1) dst[1] = y[row];
+        if (word_count > 2) dst[2] = z[row];
+    }
+}
+
+static inline void store_dense(const part *p, const float *rows, unsigned char *base, size_t row,
+                               size_t end) {
+    switch (p->word_count) {
+    case 1:
+        store_words(p, 1, rows, base, row, end);
+        break;
+    case 2:
+        store_words(p, 2, rows, base, row, end);
+        break;
+    default:
+        store_words(p, 3, rows, base, row, end);
+        break;
+    }
 }
 
 /// Rows [row, end) of a patch.
@@ -108,8 +126,11 @@ static inline size_t store_dense(const part *p, const float *rows, unsigned char
 static inline void store_rows(const part *p, const float *rows, unsigned char *base, size_t row,
                               size_t end) {
     const bool few = p->word_count <= 3 && p->size == 4 * p->word_count && p->size == p->stride;
-    row = few ? store_dense(p, rows, base, row, end) : store_fours(p, rows, base, row, end);
-    for (; row < end; row++)
+    if (few) {
+        store_dense(p, rows, base, row, end);
+        return;
+    }
+    for (row = store_fours(p, rows, base, row, end); row < end; row++)
         store_vertex(p, rows, base, row);
 }
 
