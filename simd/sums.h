@@ -146,18 +146,17 @@ static LIMNI_INLINE void add_to_tangents(const term *k, const lanes origin[3],
 }
 
 /// Both tangents of rows [table_row, table_row + count * LANES_WIDTH) of the columns.
-static LIMNI_INLINE void sum_tangent_tile(const patch *p, size_t table_stride, const float *origin,
-                                          size_t table_row, size_t row, int count,
-                                          vectors *const out[2]) {
+static LIMNI_INLINE void sum_tangent_tile(const patch *p, size_t table_stride,
+                                          const lanes origin[3], size_t table_row, size_t row,
+                                          int count, vectors *const out[2]) {
     static const float nowhere[3] = {0};
-    const lanes from[3] = {lanes_splat(origin[0]), lanes_splat(origin[1]), lanes_splat(origin[2])};
     const float *const table = p->table + table_row;
     const float *const columns[2] = {table, table + table_stride};
     tile sums[2];
     clear_tile(&sums[0], count);
     clear_tile(&sums[1], count);
     for (const term *k = p->all.begin; k != p->all.end; k++)
-        add_to_tangents(k, from, columns, count, sums);
+        add_to_tangents(k, origin, columns, count, sums);
     LIMNI_UNROLL
     for (int v = 0; v < count; v++) {
         store_sums(&sums[0], v, nowhere, row + (size_t)v * LANES_WIDTH, out[0]);
@@ -167,7 +166,7 @@ static LIMNI_INLINE void sum_tangent_tile(const patch *p, size_t table_stride, c
 
 /// Both tangents of rows, in tables `table_stride` apart; the terms are relative to nothing.
 static LIMNI_NOINLINE void sum_tangent_rows(const patch *p, size_t table_stride,
-                                            const float *origin, const limni_segment *segment,
+                                            const lanes origin[3], const limni_segment *segment,
                                             vectors *const out[2]) {
     enum { HALF = LANES_TILE / 2 > 0 ? LANES_TILE / 2 : 1, STEP = HALF * LANES_WIDTH };
     const size_t table_row = segment->table_row, row = segment->row;
