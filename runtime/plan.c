@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
+#include "lod.h"
 #include "mesh.h"
 #include "require.h"
 
-#include <math.h>
 #include <string.h>
 
 limn_plan limn_plan_uniform(const limn_mesh *mesh, uint32_t level) {
@@ -24,7 +24,7 @@ uint64_t limn_plan_first_vertex(const limn_plan *plan, uint32_t patch_index) {
 
 // ---- Levels of detail
 
-enum { PLANES = 6, TEMPLATE_MAX = 256 };
+enum { TEMPLATE_MAX = 256, PLANES = 6 };
 
 typedef struct planner {
     const limn_mesh *mesh;
@@ -32,85 +32,90 @@ typedef struct planner {
     const limn_view *views;
     uint32_t view_count;
     limn_lod_desc desc;
-    uint32_t *outside; ///< [control_count] bit 6 v + p: outside of plane p of view v
+    uint32_t *outside;        ///< [control_count] bit 6 v + p: outside of plane p of view v
+    limni_lod_levels *levels; ///< of edges, a block for each LIMNI_LOD_BLOCK patches
     limn_plan_patch *patches;
     uint32_t patch_count;
 } planner;
 
-/// log2 within 0.008: continuous and rising, which is all that levels need, and quicker than
-/// libm's. x: not negative.
-static float find_log2(float x) {
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    const float exponent = (float)(int32_t)(bits >> 23) - 127.0f;
-    bits = (bits & 0x7fffffu) | 0x3f800000u;
-    float mantissa;
-    memcpy(&mantissa, &bits, sizeof mantissa);
-    const float t = mantissa - 1.0f;
-    return exponent + t + 0.3466f * t * (1.0f - t);
-}
+// ---- Culling
 
-static void mark_outside(const planner *p) {
-    for (uint32_t c = 0; c < p->mesh->control_count; c++) {
-        const float *const point = p->controls + 3 * (size_t)c;
-        uint32_t outside = 0;
-        for (uint32_t v = 0; v < p->view_count; v++) {
-            for (uint32_t k = 0; k < p->views[v].plane_count; k++) {
-                const float *const plane = p->views[v].planes[k];
-                const float side =
-                    plane[0] * point[0] + plane[1] * point[1] + plane[2] * point[2] + plane[3];
-                outside |= (uint32_t)(side < 0) << (PLANES * v + k);
-            }
-        }
-        p->outside[c] = outside;
+/// A block of points, structure of arrays.
+typedef struct point_block {
+    float axes[3][LIMNI_LOD_BLOCK];
+} point_block;
+
+static void add_plane(const point_block *points, const float plane[4], uint32_t bit,
+                      uint32_t outside[LIMNI_LOD_BLOCK]) {
+    for (int i = 0; i < LIMNI_LOD_BLOCK; i++) {
+        const float side = plane[0] * points->axes[0][i] + plane[1] * points->axes[1][i] +
+                           plane[2] * points->axes[2][i] + plane[3];
+        outside[i] |= side < 0 ? bit : 0;
     }
 }
 
-static bool may_be_seen(const planner *p, const uint32_t *indices, uint32_t count) {
-    uint32_t outside = UINT32_MAX;
-    for (uint32_t k = 0; k < count; k++)
-        outside &= p->outside[indices[k]];
+static void mark_outside(const planner *p) {
+    const uint32_t count = p->mesh->control_count;
+    point_block points = {0};
+    for (uint32_t first = 0; first < count; first += LIMNI_LOD_BLOCK) {
+        uint32_t outside[LIMNI_LOD_BLOCK] = {0};
+        const uint32_t left = count - first;
+        const uint32_t in_block = left < LIMNI_LOD_BLOCK ? left : LIMNI_LOD_BLOCK;
+        const float *point = p->controls + 3 * (size_t)first;
+        for (uint32_t i = 0; i < in_block; i++, point += 3) {
+            for (int axis = 0; axis < 3; axis++)
+                points.axes[axis][i] = point[axis];
+        }
+        for (uint32_t v = 0; v < p->view_count; v++) {
+            for (uint32_t k = 0; k < p->views[v].plane_count; k++)
+                add_plane(&points, p->views[v].planes[k], 1u << (PLANES * v + k), outside);
+        }
+        memcpy(p->outside + first, outside, in_block * sizeof *outside);
+    }
+}
+
+/// Whether what is outside of all these planes may be seen in some view.
+static bool is_in_view(const planner *p, uint32_t outside) {
     for (uint32_t v = 0; v < p->view_count; v++) {
         if ((outside >> PLANES * v & ((1u << PLANES) - 1)) == 0) return true;
     }
     return false;
 }
 
-/// The square of the length of an edge on the screen, in pixels: the largest of all views.
-/// Exchanging a and b changes no bit.
-static float square_of_pixels(const planner *p, const float *a, const float *b) {
-    float largest = 0;
-    for (uint32_t v = 0; v < p->view_count; v++) {
-        const limn_view *const view = &p->views[v];
-        float length2 = 0, distance2 = 0;
-        for (int axis = 0; axis < 3; axis++) {
-            const float difference = a[axis] - b[axis];
-            const float middle = (a[axis] + b[axis]) * 0.5f - view->eye[axis];
-            length2 += difference * difference;
-            distance2 += middle * middle;
-        }
-        const float nearest2 = view->nearest * view->nearest;
-        const float divisor = view->orthographic     ? 1.0f
-                              : distance2 > nearest2 ? distance2
-                                                     : nearest2;
-        const float square = length2 * (view->pixels * view->pixels) / divisor;
-        largest = square > largest ? square : largest;
+/// The corners come first, and most often decide.
+static bool may_be_seen(const planner *p, const uint32_t *indices, uint32_t count) {
+    const uint32_t corner_count = p->mesh->domain->corner_count;
+    uint32_t outside = UINT32_MAX;
+    for (uint32_t k = 0; k < corner_count; k++)
+        outside &= p->outside[indices[k]];
+    if (is_in_view(p, outside)) return true;
+    for (uint32_t k = corner_count; k < count; k++)
+        outside &= p->outside[indices[k]];
+    return is_in_view(p, outside);
+}
+
+// ---- Listing
+
+static inline void set_corners(const float *controls, const uint32_t *indices,
+                               uint32_t corner_count, uint32_t at, limni_lod_block *block) {
+    for (uint32_t corner = 0; corner < corner_count; corner++) {
+        const float *const point = controls + 3 * (size_t)indices[corner];
+        block->corners[corner][0][at] = point[0];
+        block->corners[corner][1][at] = point[1];
+        block->corners[corner][2][at] = point[2];
     }
-    return largest;
 }
 
-/// Before the limits and the budget.
-static float edge_level(const planner *p, uint32_t a, uint32_t b) {
-    if (p->desc.lod == LIMN_LOD_UNIFORM) return p->desc.level + p->desc.bias;
-    const float square =
-        square_of_pixels(p, p->controls + 3 * (size_t)a, p->controls + 3 * (size_t)b);
-    const float target2 = p->desc.pixels * p->desc.pixels;
-    return 0.5f * find_log2(square / target2) + p->desc.bias;
+static void measure_block(const planner *p, const limni_lod_block *block) {
+    const uint32_t last = p->patch_count - 1;
+    limni_lod_measure(&p->desc, p->views, p->view_count, p->mesh->domain->corner_count, block,
+                      &p->levels[last / LIMNI_LOD_BLOCK]);
 }
 
-/// Lists what may be seen, with the levels of edges in the place of their weights.
+/// Lists what may be seen, and finds the levels of its edges.
 static void list_patches(planner *p) {
-    const uint32_t corners = p->mesh->domain->corner_count;
+    const uint32_t corner_count = p->mesh->domain->corner_count;
+    limni_lod_block block = {0};
     for (uint32_t r = 0; r < p->mesh->run_count; r++) {
         const limn_file_run *const run = &p->mesh->runs[r];
         const uint32_t count = p->mesh->classes[run->class_index].control_count;
@@ -119,38 +124,36 @@ static void list_patches(planner *p) {
             const uint32_t patch = run->first_patch + i;
             if (!may_be_seen(p, indices, count)) continue;
             if (p->desc.keep_fn && !p->desc.keep_fn(p->desc.keep_user, patch)) continue;
-            limn_plan_patch *const item = &p->patches[p->patch_count++];
-            *item = (limn_plan_patch){.patch = patch};
-            for (uint32_t e = 0; e < corners; e++)
-                item->edge_morphs[e] =
-                    edge_level(p, indices[e], indices[e + 1 < corners ? e + 1 : 0]);
+            set_corners(p->controls, indices, corner_count, p->patch_count % LIMNI_LOD_BLOCK,
+                        &block);
+            p->patches[p->patch_count++].patch = patch;
+            if (p->patch_count % LIMNI_LOD_BLOCK == 0) measure_block(p, &block);
         }
     }
+    if (p->patch_count % LIMNI_LOD_BLOCK) measure_block(p, &block);
 }
 
-static float limit_level(const planner *p, float level) {
-    const float top = level < p->desc.max_level ? level : p->desc.max_level;
-    return top > p->desc.min_level ? top : p->desc.min_level; // also where it is not a number
+// ---- Levels and places
+
+static uint32_t count_in_block(const planner *p, uint32_t first) {
+    const uint32_t left = p->patch_count - first;
+    return left < LIMNI_LOD_BLOCK ? left : LIMNI_LOD_BLOCK;
 }
 
-static uint32_t whole_level(float level) {
-    return (uint32_t)ceilf(level);
-}
-
-static float highest_level(const planner *p, const limn_plan_patch *item, float lowered) {
-    float highest = 0;
-    for (uint32_t e = 0; e < p->mesh->domain->corner_count; e++) {
-        const float level = limit_level(p, item->edge_morphs[e] - lowered);
-        highest = level > highest ? level : highest;
-    }
-    return highest;
+static void choose_block(const planner *p, uint32_t first, float lowered,
+                         limni_lod_choice *choice) {
+    limni_lod_choose(&p->desc, p->mesh->domain->corner_count, &p->levels[first / LIMNI_LOD_BLOCK],
+                     lowered, choice);
 }
 
 static uint64_t count_vertices(const planner *p, float lowered) {
     uint64_t count = 0;
-    for (uint32_t i = 0; i < p->patch_count; i++)
-        count +=
-            p->mesh->domain->row_counts[whole_level(highest_level(p, &p->patches[i], lowered))];
+    limni_lod_choice choice;
+    for (uint32_t first = 0; first < p->patch_count; first += LIMNI_LOD_BLOCK) {
+        choose_block(p, first, lowered, &choice);
+        for (uint32_t i = 0; i < count_in_block(p, first); i++)
+            count += p->mesh->domain->row_counts[choice.levels[i]];
+    }
     return count;
 }
 
@@ -172,28 +175,34 @@ static float find_lowering(const planner *p) {
     return high;
 }
 
-/// Level l draws n = ceil(l) levels; what is new at n has weight l - (n - 1).
-static float weight_of(const planner *p, float level) {
-    const uint32_t n = whole_level(level);
-    return n == 0 || p->desc.no_morph ? 1.0f : level - (float)(n - 1);
+/// Patch i of a block, but for what it is a patch of and its template.
+static void set_patch(const limni_lod_choice *choice, uint32_t i, limn_plan_patch *item) {
+    item->level = (uint8_t)choice->levels[i];
+    item->morph = choice->morphs[i];
+    for (uint32_t e = 0; e < LIMN_CORNER_MAX; e++) {
+        item->edge_levels[e] = (uint8_t)choice->edge_levels[e][i];
+        item->edge_morphs[e] = choice->edge_morphs[e][i];
+    }
 }
 
 static void finish_patches(const planner *p, float lowered, limn_plan *plan) {
     const limn_domain *const domain = p->mesh->domain;
-    for (uint32_t i = 0; i < p->patch_count; i++) {
-        limn_plan_patch *const item = &p->patches[i];
-        const float highest = highest_level(p, item, lowered);
-        item->level = (uint8_t)whole_level(highest);
-        item->morph = weight_of(p, highest);
-        for (uint32_t e = 0; e < domain->corner_count; e++) {
-            const float level = limit_level(p, item->edge_morphs[e] - lowered);
-            item->edge_levels[e] = (uint8_t)whole_level(level);
-            item->edge_morphs[e] = weight_of(p, level);
+    const uint8_t whole[LIMN_CORNER_MAX] = {0};
+    uint32_t first_templates[LIMN_LEVEL_COUNT]; // that of a level whose edges are all at level 0
+    for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++)
+        first_templates[level] = limn_template_find(domain, level, whole);
+    limni_lod_choice choice = {0}; // edges that the domain does not have stay 0
+    for (uint32_t first = 0; first < p->patch_count; first += LIMNI_LOD_BLOCK) {
+        choose_block(p, first, lowered, &choice);
+        for (uint32_t i = 0; i < count_in_block(p, first); i++) {
+            limn_plan_patch *const item = &p->patches[first + i];
+            const uint32_t level = (uint32_t)choice.levels[i];
+            set_patch(&choice, i, item);
+            item->template_index = (uint16_t)(first_templates[level] + (uint32_t)choice.places[i]);
+            item->first_vertex = (uint32_t)plan->vertex_count;
+            plan->vertex_count += domain->row_counts[level];
+            plan->level = level > plan->level ? level : plan->level;
         }
-        item->template_index = (uint16_t)limn_template_find(domain, item->level, item->edge_levels);
-        item->first_vertex = (uint32_t)plan->vertex_count;
-        plan->vertex_count += domain->row_counts[item->level];
-        plan->level = item->level > plan->level ? item->level : plan->level;
     }
 }
 
@@ -219,10 +228,31 @@ static void make_draws(const planner *p, const limn_template *templates, limn_dr
     plan->draws = draws;
 }
 
+/// Where what a planner writes lies in the caller's memory.
+typedef struct plan_memory {
+    limn_draw *draws;
+    size_t size;
+} plan_memory;
+
+/// memory  NULL: only the size is wanted
+static plan_memory divide_memory(const limn_mesh *mesh, unsigned char *memory, planner *p) {
+    const size_t patch_count = mesh->patch_count;
+    const size_t block_count = (patch_count + LIMNI_LOD_BLOCK - 1) / LIMNI_LOD_BLOCK;
+    const size_t draws = patch_count * sizeof(limn_plan_patch);
+    const size_t levels = draws + patch_count * sizeof(limn_draw);
+    const size_t outside = levels + block_count * sizeof(limni_lod_levels);
+    if (memory) {
+        p->patches = (limn_plan_patch *)(void *)memory;
+        p->levels = (limni_lod_levels *)(void *)(memory + levels);
+        p->outside = (uint32_t *)(void *)(memory + outside);
+    }
+    return (plan_memory){.draws = memory ? (limn_draw *)(void *)(memory + draws) : NULL,
+                         .size = outside + (size_t)mesh->control_count * sizeof(uint32_t)};
+}
+
 size_t limn_plan_size(const limn_mesh *mesh) {
     LIMNI_REQUIRE(mesh, 0);
-    return (size_t)mesh->patch_count * (sizeof(limn_plan_patch) + sizeof(limn_draw)) +
-           (size_t)mesh->control_count * sizeof(uint32_t);
+    return divide_memory(mesh, NULL, NULL).size;
 }
 
 limn_plan limn_plan_build(const limn_mesh *mesh, const float *controls, const limn_view *views,
@@ -234,15 +264,13 @@ limn_plan limn_plan_build(const limn_mesh *mesh, const float *controls, const li
                  .controls = controls,
                  .views = views,
                  .view_count = view_count,
-                 .desc = desc ? *desc : (limn_lod_desc){0},
-                 .patches = memory};
+                 .desc = desc ? *desc : (limn_lod_desc){0}};
     if (p.desc.pixels == 0) p.desc.pixels = 8;
     if (p.desc.max_level == 0) p.desc.max_level = LIMN_LEVEL_MAX;
     LIMNI_REQUIRE(p.desc.min_level >= 0 && p.desc.max_level <= LIMN_LEVEL_MAX &&
                       p.desc.min_level <= p.desc.max_level && p.desc.pixels > 0,
                   (limn_plan){0});
-    limn_draw *const draws = (limn_draw *)(void *)(p.patches + mesh->patch_count);
-    p.outside = (uint32_t *)(void *)(draws + mesh->patch_count);
+    limn_draw *const draws = divide_memory(mesh, memory, &p).draws;
     mark_outside(&p);
     list_patches(&p);
     limn_plan plan = {.mesh = mesh, .patch_count = p.patch_count, .patches = p.patches};
