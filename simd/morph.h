@@ -48,13 +48,13 @@ static inline void move_row(vectors *rows, bool normals, const uint16_t parents[
     }
 }
 
-/// The rows of one edge: new ones move, and those that the edge does not have go to where the
-/// template moves them, for the sake of their children inside.
+/// The rows of an edge that is coarser than its patch: new ones move, and those that the edge does
+/// not have go to where the template moves them, for the sake of their children inside.
 static inline void morph_edge(const limn_domain *domain, uint32_t edge, uint32_t level,
                               uint32_t edge_level, float weight, bool normals, vectors *rows) {
     const uint16_t *const along = domain->edge_rows[edge];
     const uint32_t step = LIMN_GRID_SIZE >> edge_level, finest = LIMN_GRID_SIZE >> level;
-    for (uint32_t t = step; t < LIMN_GRID_SIZE && edge_level > 0; t += 2 * step)
+    for (uint32_t t = step; t < LIMN_GRID_SIZE && edge_level > 0 && weight != 1; t += 2 * step)
         move_row(rows, normals, (const uint16_t[]){along[t - step], along[t + step]}, along[t],
                  weight);
     for (uint32_t t = finest; t < LIMN_GRID_SIZE; t += finest) {
@@ -62,17 +62,101 @@ static inline void morph_edge(const limn_domain *domain, uint32_t edge, uint32_t
     }
 }
 
-/// Positions or normals of a patch, as its plan wants them.
+/// Stands for the weight of rows that keep all their bits.
+#define KEPT 2.0f
+
+static inline void fill_weights(float *weights, size_t row, size_t count, float weight) {
+    const lanes filled = lanes_splat(weight == 1 ? KEPT : weight);
+    for (size_t at = 0; at < count; at += LANES_WIDTH)
+        lanes_store(weights + row + at, filled);
+}
+
+/// The weights of the rows that are new at the level of the patch. By ascending rows: each store
+/// goes on to the end of a vector. Returns whether any row moves.
+static inline bool set_weights(const limn_domain *domain, const limn_plan_patch *item,
+                               float *weights) {
+    const uint32_t level = item->level;
+    const size_t new_count = (size_t)1 << (level - 1), inside = limni_first_inside(domain, level);
+    size_t row = domain->row_counts[level - 1];
+    bool moves = item->morph != 1;
+    for (uint32_t edge = 0; edge < domain->corner_count; edge++, row += new_count) {
+        const float weight = item->edge_levels[edge] < level ? 1 : item->edge_morphs[edge];
+        fill_weights(weights, row, new_count, weight);
+        moves |= weight != 1;
+    }
+    fill_weights(weights, inside, domain->row_counts[level] - inside, item->morph);
+    return moves;
+}
+
+/// The middles of the parents of rows [row, end).
+static inline void find_middles(const limn_domain *domain, const vectors *rows, size_t row,
+                                size_t end, vectors *middles) {
+    for (; row < end; row++) {
+        const uint16_t *const parents = domain->rows[row].parents;
+        for (int axis = 0; axis < 3; axis++) {
+            const float *const values = rows->axes[axis];
+            middles->axes[axis][row] = (values[parents[0]] + values[parents[1]]) * 0.5f;
+        }
+    }
+}
+
+/// morph_row() for the rows of a vector.
+static inline void blend(const vectors *middles, const lanes weight, size_t row,
+                         const vectors *rows, lanes blended[3]) {
+    const lanes rest = lanes_subtract(lanes_splat(1.0f), weight);
+    for (int axis = 0; axis < 3; axis++) {
+        const lanes middle = lanes_load_any(&middles->axes[axis][row]);
+        const lanes value = lanes_load_any(&rows->axes[axis][row]);
+        blended[axis] = lanes_add(lanes_multiply(rest, middle), lanes_multiply(weight, value));
+    }
+}
+
+/// The rest of morph_normal().
+static inline void make_unit(lanes n[3]) {
+    const lanes square =
+        lanes_add(lanes_add(lanes_multiply(n[0], n[0]), lanes_multiply(n[1], n[1])),
+                  lanes_multiply(n[2], n[2]));
+    const lanes root = inverse_root(square), least = lanes_splat(LEAST_SQUARE);
+    for (int axis = 0; axis < 3; axis++) {
+        const lanes unit = lanes_add(lanes_multiply(n[axis], root), lanes_zero());
+        n[axis] = lanes_select_greater(square, least, unit, n[axis]);
+    }
+}
+
+/// Moves the rows that are new at the level of the patch, a vector at a time.
+static inline void morph_level(const limn_domain *domain, const limn_plan_patch *item, bool normals,
+                               vectors *rows) {
+    float weights[PLANE];
+    vectors middles;
+    const size_t first = domain->row_counts[item->level - 1];
+    const size_t end = domain->row_counts[item->level];
+    if (!set_weights(domain, item, weights)) return;
+    find_middles(domain, rows, first, end, &middles);
+    for (size_t row = first; row < end; row += LANES_WIDTH) {
+        const lanes weight = lanes_load_any(weights + row);
+        lanes blended[3];
+        blend(&middles, weight, row, rows, blended);
+        if (normals) make_unit(blended);
+        for (int axis = 0; axis < 3; axis++) {
+            float *const place = &rows->axes[axis][row];
+            lanes_store(place, lanes_select_greater(weight, lanes_splat(1.0f),
+                                                    lanes_load_any(place), blended[axis]));
+        }
+    }
+}
+
+/// Positions or normals of a patch, as its plan wants them: first along coarser edges, as parents
+/// are taken where they are drawn.
 static inline void morph_patch(const limn_domain *domain, const limn_plan_patch *item, bool normals,
                                vectors *rows) {
     const uint32_t level = item->level;
     if (level == 0) return;
-    for (uint32_t edge = 0; edge < domain->corner_count; edge++)
-        morph_edge(domain, edge, level, item->edge_levels[edge], item->edge_morphs[edge], normals,
-                   rows);
-    if (item->morph == 1) return;
-    for (uint32_t row = limni_first_inside(domain, level); row < domain->row_counts[level]; row++)
-        move_row(rows, normals, domain->rows[row].parents, row, item->morph);
+    for (uint32_t edge = 0; edge < domain->corner_count; edge++) {
+        if (item->edge_levels[edge] < level)
+            morph_edge(domain, edge, level, item->edge_levels[edge], item->edge_morphs[edge],
+                       normals, rows);
+    }
+    morph_level(domain, item, normals, rows);
 }
 
 #endif
