@@ -48,16 +48,22 @@ static inline void move_row(vectors *rows, bool normals, const uint16_t parents[
     }
 }
 
-/// The rows of an edge that is coarser than its patch: new ones move, and those that the edge does
-/// not have go to where the template moves them, for the sake of their children inside.
-static inline void morph_edge(const limn_domain *domain, uint32_t edge, uint32_t level,
-                              uint32_t edge_level, float weight, bool normals, vectors *rows) {
-    const uint16_t *const along = domain->edge_rows[edge];
-    const uint32_t step = LIMN_GRID_SIZE >> edge_level, finest = LIMN_GRID_SIZE >> level;
-    for (uint32_t t = step; t < LIMN_GRID_SIZE && edge_level > 0 && weight != 1; t += 2 * step)
+/// The rows of an edge that is coarser than its patch: those that are new at its level move.
+static inline void morph_edge(const uint16_t *along, uint32_t edge_level, float weight,
+                              bool normals, vectors *rows) {
+    const uint32_t step = LIMN_GRID_SIZE >> edge_level;
+    if (edge_level == 0 || weight == 1) return;
+    for (uint32_t t = step; t < LIMN_GRID_SIZE; t += 2 * step)
         move_row(rows, normals, (const uint16_t[]){along[t - step], along[t + step]}, along[t],
                  weight);
-    for (uint32_t t = finest; t < LIMN_GRID_SIZE; t += finest) {
+}
+
+/// Those that it does not have, though the patch has them below its own level, go to where the
+/// template moves them, for the sake of their children inside.
+static inline void close_edge(const uint16_t *along, uint32_t edge_level, uint32_t level,
+                              vectors *rows) {
+    const uint32_t step = LIMN_GRID_SIZE >> edge_level, coarse = 2u * LIMN_GRID_SIZE >> level;
+    for (uint32_t t = coarse; t < LIMN_GRID_SIZE; t += coarse) {
         if (t % step) copy_row(rows, along[limni_kept_place(t, edge_level)], along[t]);
     }
 }
@@ -71,14 +77,15 @@ static inline void fill_weights(float *weights, size_t row, size_t count, float 
         lanes_store(weights + row + at, filled);
 }
 
-/// The weights of the rows that are new at the level of the patch. By ascending rows: each store
-/// goes on to the end of a vector. Returns whether any row moves.
-static inline bool set_weights(const limn_domain *domain, const limn_plan_patch *item,
+/// The weights of rows from `begin` on, of which those move that are new at the level of the patch.
+/// By ascending rows: each store goes on to the end of a vector. Returns whether any row moves.
+static inline bool set_weights(const limn_domain *domain, const limn_plan_patch *item, size_t begin,
                                float *weights) {
     const uint32_t level = item->level;
     const size_t new_count = (size_t)1 << (level - 1), inside = limni_first_inside(domain, level);
     size_t row = domain->row_counts[level - 1];
     bool moves = item->morph != 1;
+    fill_weights(weights, begin, row - begin, 1);
     for (uint32_t edge = 0; edge < domain->corner_count; edge++, row += new_count) {
         const float weight = item->edge_levels[edge] < level ? 1 : item->edge_morphs[edge];
         fill_weights(weights, row, new_count, weight);
@@ -88,24 +95,26 @@ static inline bool set_weights(const limn_domain *domain, const limn_plan_patch 
     return moves;
 }
 
-/// The middles of the parents of rows [row, end).
-static inline void find_middles(const limn_domain *domain, const vectors *rows, size_t row,
-                                size_t end, vectors *middles) {
+/// The sums of the two parents of rows [row, end).
+static inline void add_parents(const limn_domain *domain, const vectors *rows, size_t row,
+                               size_t end, vectors *sums) {
+    const limn_row *const of = domain->rows;
+    LIMNI_UNROLL_TWICE
     for (; row < end; row++) {
-        const uint16_t *const parents = domain->rows[row].parents;
-        for (int axis = 0; axis < 3; axis++) {
-            const float *const values = rows->axes[axis];
-            middles->axes[axis][row] = (values[parents[0]] + values[parents[1]]) * 0.5f;
-        }
+        const size_t a = of[row].parents[0], b = of[row].parents[1];
+        sums->axes[0][row] = rows->axes[0][a] + rows->axes[0][b];
+        sums->axes[1][row] = rows->axes[1][a] + rows->axes[1][b];
+        sums->axes[2][row] = rows->axes[2][a] + rows->axes[2][b];
     }
 }
 
 /// morph_row() for the rows of a vector.
-static inline void blend(const vectors *middles, const lanes weight, size_t row,
-                         const vectors *rows, lanes blended[3]) {
+static inline void blend(const vectors *sums, const lanes weight, size_t row, const vectors *rows,
+                         lanes blended[3]) {
     const lanes rest = lanes_subtract(lanes_splat(1.0f), weight);
     for (int axis = 0; axis < 3; axis++) {
-        const lanes middle = lanes_load_any(&middles->axes[axis][row]);
+        const lanes sum = lanes_load_any(&sums->axes[axis][row]);
+        const lanes middle = lanes_multiply(sum, lanes_splat(0.5f));
         const lanes value = lanes_load_any(&rows->axes[axis][row]);
         blended[axis] = lanes_add(lanes_multiply(rest, middle), lanes_multiply(weight, value));
     }
@@ -123,24 +132,25 @@ static inline void make_unit(lanes n[3]) {
     }
 }
 
-/// Moves the rows that are new at the level of the patch, a vector at a time.
+/// Moves the rows that are new at the level of the patch, in the vectors that they are stored in:
+/// loading parts of two vectors would wait for both.
 static inline void morph_level(const limn_domain *domain, const limn_plan_patch *item, bool normals,
                                vectors *rows) {
     float weights[PLANE];
-    vectors middles;
-    const size_t first = domain->row_counts[item->level - 1];
+    vectors sums;
+    const size_t begin = domain->row_counts[item->level - 1] / LANES_WIDTH * LANES_WIDTH;
     const size_t end = domain->row_counts[item->level];
-    if (!set_weights(domain, item, weights)) return;
-    find_middles(domain, rows, first, end, &middles);
-    for (size_t row = first; row < end; row += LANES_WIDTH) {
-        const lanes weight = lanes_load_any(weights + row);
+    if (!set_weights(domain, item, begin, weights)) return;
+    add_parents(domain, rows, begin, end, &sums);
+    for (size_t row = begin; row < end; row += LANES_WIDTH) {
+        const lanes weight = lanes_load_any(weights + row), one = lanes_splat(1.0f);
         lanes blended[3];
-        blend(&middles, weight, row, rows, blended);
+        blend(&sums, weight, row, rows, blended);
         if (normals) make_unit(blended);
         for (int axis = 0; axis < 3; axis++) {
             float *const place = &rows->axes[axis][row];
-            lanes_store(place, lanes_select_greater(weight, lanes_splat(1.0f),
-                                                    lanes_load_any(place), blended[axis]));
+            const lanes kept = lanes_load_any(place);
+            lanes_store(place, lanes_select_greater(weight, one, kept, blended[axis]));
         }
     }
 }
@@ -152,9 +162,11 @@ static inline void morph_patch(const limn_domain *domain, const limn_plan_patch 
     const uint32_t level = item->level;
     if (level == 0) return;
     for (uint32_t edge = 0; edge < domain->corner_count; edge++) {
-        if (item->edge_levels[edge] < level)
-            morph_edge(domain, edge, level, item->edge_levels[edge], item->edge_morphs[edge],
-                       normals, rows);
+        const uint16_t *const along = domain->edge_rows[edge];
+        const uint32_t edge_level = item->edge_levels[edge];
+        if (edge_level == level) continue;
+        morph_edge(along, edge_level, item->edge_morphs[edge], normals, rows);
+        if (item->morph != 1) close_edge(along, edge_level, level, rows);
     }
     morph_level(domain, item, normals, rows);
 }

@@ -266,6 +266,10 @@ static void check_morphs(subject *s, const limn_plan *plan) {
             const float *const vertex = s->vertices[item->first_vertex + row];
             point where;
             double square = 0;
+            float weight;
+            bool skipped;
+            is_new(item, row, &weight, &skipped);
+            if (skipped) continue; // not drawn
             display(item, (const float(*)[FLOATS])finest + (size_t)item->patch * 153, row, where);
             for (int axis = 0; axis < 3; axis++) {
                 furthest = fmax(furthest, fabs((double)vertex[axis] - where[axis]));
