@@ -11,6 +11,7 @@ extern "C" {
 #endif
 
 int bench_bake(int argc, char **argv);
+int bench_dolly(int argc, char **argv);
 int bench_kernels(int argc, char **argv);
 int bench_peers(int argc, char **argv);
 

@@ -12,6 +12,7 @@ static const struct {
 } benches[] = {
     {"bake", bench_bake,
      "time to bake, peak memory, and stored bytes beside OpenSubdiv's stencils"},
+    {"dolly", bench_dolly, "how far levels of detail move the surface, frame by frame, as CSV"},
     {"kernels", bench_kernels,
      "time per patch of every kernel, and its share of what this core can do at most"},
     {"peers", bench_peers,
