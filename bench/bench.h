@@ -14,6 +14,7 @@ int bench_bake(int argc, char **argv);
 int bench_dolly(int argc, char **argv);
 int bench_kernels(int argc, char **argv);
 int bench_peers(int argc, char **argv);
+int bench_plan(int argc, char **argv);
 
 /// Seconds of a clock that only goes forward.
 double bench_seconds(void);

@@ -17,6 +17,8 @@ static const struct {
      "time per patch of every kernel, and its share of what this core can do at most"},
     {"peers", bench_peers,
      "time per face beside OpenSubdiv, recursive subdivision and dense skinning"},
+    {"plan", bench_plan,
+     "time to plan a frame beside that to evaluate it; mixed levels; two threads"},
 };
 
 enum { BENCH_COUNT = sizeof benches / sizeof *benches };
