@@ -27,7 +27,7 @@ done
 build() {
     cmake -S "$source_folder" -B "$work_folder/$1" -G Ninja --log-level=WARNING \
         -DCMAKE_C_COMPILER="${1%-*}" -DCMAKE_BUILD_TYPE="${1#*-}" -DCMAKE_DISABLE_FIND_PACKAGE_OpenSubdivCPU=ON \
-        -DLIMN_BUILD_TESTS=OFF -DLIMN_BUILD_BENCH=OFF -DLIMN_BUILD_VIEWER=OFF -DLIMN_INSTALL=OFF
+        -DLIMN_BUILD_TESTS=OFF -DLIMN_BUILD_BENCH=OFF -DLIMN_BUILD_EXAMPLES=OFF -DLIMN_BUILD_VIEWER=OFF -DLIMN_INSTALL=OFF
     cmake --build "$work_folder/$1" --target limn
 }
 

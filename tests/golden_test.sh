@@ -23,7 +23,7 @@ for compiler in gcc clang; do
         build=$work_folder/$compiler-O$level
         cmake -S "$source_folder" -B "$build" -G Ninja --log-level=WARNING -DCMAKE_C_COMPILER=$compiler \
             -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O$level -DLIMN_BUILD_BAKER=OFF -DLIMN_BUILD_BENCH=OFF \
-            -DLIMN_BUILD_VIEWER=OFF -DLIMN_INSTALL=OFF >"$build.log"
+            -DLIMN_BUILD_EXAMPLES=OFF -DLIMN_BUILD_VIEWER=OFF -DLIMN_INSTALL=OFF >"$build.log"
         cmake --build "$build" --target test_kernels >>"$build.log" 2>&1 || {
             cat "$build.log" >&2
             exit 1

@@ -215,7 +215,8 @@ check_builds("${build}-source")
 
 run("configure without the baker" "${CMAKE_COMMAND}" -S "${SOURCE_DIR}" -B "${build}-runtime" -G "${CMAKE_GENERATOR}"
     "-DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}" "-DCMAKE_C_COMPILER=${CMAKE_C_COMPILER}" "-DCMAKE_C_FLAGS=${CMAKE_C_FLAGS}"
-    -DLIMN_BUILD_BAKER=OFF -DLIMN_BUILD_VIEWER=OFF -DLIMN_BUILD_BENCH=OFF -DLIMN_BUILD_TESTS=OFF)
+    -DLIMN_BUILD_BAKER=OFF -DLIMN_BUILD_VIEWER=OFF -DLIMN_BUILD_BENCH=OFF -DLIMN_BUILD_EXAMPLES=OFF
+    -DLIMN_BUILD_TESTS=OFF)
 run("build without the baker" "${CMAKE_COMMAND}" --build "${build}-runtime")
 run("install without the baker" "${CMAKE_COMMAND}" --install "${build}-runtime" --prefix "${WORK_DIR}/runtime")
 set(runtime_user ${common} -B "${build}-runtime-user" -G "${CMAKE_GENERATOR}"
