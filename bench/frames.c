@@ -63,19 +63,21 @@ bench_frame bench_frame_uniform(const bench_mix *mix, uint32_t level) {
     return frame;
 }
 
-bench_frame bench_frame_near(const bench_mix *mix, const bench_lod *lod, bool culls) {
+bench_frame bench_frame_near(const bench_mix *mix, const bench_lod *lod, float pixels, bool culls) {
     static const float eye[3] = {0.5f, 0.3f, 0.8f}, target[3] = {0.2f, 0.2f, 0};
     char name[32];
     snprintf(name, sizeof name, "%s%s", lod->name, culls ? ", culled" : "");
     bench_frame frame = make_frame(mix, name, 1);
-    add_planning(&frame, &lod->desc);
+    limn_lod_desc desc = lod->desc;
+    desc.pixels = pixels;
+    add_planning(&frame, &desc);
     frame.views[0] = make_view(&mix->mesh, eye, target);
     if (!culls) frame.views[0].plane_count = 0;
     return frame;
 }
 
-bench_frame bench_frame_crowd(const bench_mix *mix, bool no_morph) {
-    const limn_lod_desc desc = {.no_morph = no_morph};
+bench_frame bench_frame_crowd(const bench_mix *mix, float pixels, bool no_morph) {
+    const limn_lod_desc desc = {.pixels = pixels, .no_morph = no_morph};
     bench_frame frame =
         make_frame(mix, no_morph ? "crowd, no morph" : "crowd", CROWD_SIDE * CROWD_SIDE);
     add_planning(&frame, &desc);

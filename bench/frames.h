@@ -20,11 +20,12 @@ typedef struct bench_frame {
 /// All faces at one level, without planning.
 bench_frame bench_frame_uniform(const bench_mix *mix, uint32_t level);
 
-/// A camera so near that some faces are outside; they are left out only if it culls.
-bench_frame bench_frame_near(const bench_mix *mix, const bench_lod *lod, bool culls);
+/// A camera so near that some faces are outside; they are left out only if it culls. `pixels` is
+/// the tolerance.
+bench_frame bench_frame_near(const bench_mix *mix, const bench_lod *lod, float pixels, bool culls);
 
 /// 64 of the same in eight rows, seen from before them and above, faces outside left out.
-bench_frame bench_frame_crowd(const bench_mix *mix, bool no_morph);
+bench_frame bench_frame_crowd(const bench_mix *mix, float pixels, bool no_morph);
 
 void bench_frame_destroy(bench_frame *frame);
 

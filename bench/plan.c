@@ -23,10 +23,10 @@ static const char help[] =
     "or\n"
     "of a regular torus of 8,192 faces, and prints medians:\n\n"
     "  level 0 to 4       all faces at one level, without planning\n"
-    "  uniform, length …  levels chosen in that way for a near camera: a level of 2.5, steps of 8\n"
-    "                     pixels. No faces are left out, or (culled) those outside\n"
+    "  uniform, length …  levels chosen in that way for a near camera: 2.5, or as long edges are.\n"
+    "                     No faces are left out, or (culled) those outside\n"
     "  crowd              64 of the mesh in eight rows, one camera, a plan for each of them,\n"
-    "                     culled, steps of 8 pixels; with morphing and without\n\n"
+    "                     culled; with morphing and without\n\n"
     "  drawn         share of the faces\n"
     "  level         the mean of the patches that are drawn\n"
     "  plan          ns per face, drawn or not\n"
@@ -36,6 +36,7 @@ static const char help[] =
     "Vertices go to a small buffer that is used again and again, as a mapped ring buffer would\n"
     "be; each thread has its own. Draws are not made.\n\n"
     "Then two threads beside one: each takes every other buffer-full of patches.\n\n"
+    "  --pixels N     tolerance of levels (default 4)\n"
     "  --fast         kernels with fused multiply-add\n"
     "  --threads N    instead of 2\n"
     "  --rounds N     samples of each figure (default 15)\n"
@@ -46,6 +47,7 @@ static const char help[] =
 enum { ROUND_MAX = 1000, TORUS_SIDE = 64, FRAME_MAX = 32, JOB_MAX = 96, VERTEX_SIZE = 12 };
 
 typedef struct options {
+    float pixels;
     bool fast;
     uint32_t threads;
     int rounds;
@@ -285,6 +287,7 @@ static void add_threads(session *s, const bench_frame *frame) {
 }
 
 static void add_all(session *s, const bench_mix *mix) {
+    const float pixels = s->options.pixels;
     const bench_frame *finest = NULL;
     const job *level_4 = NULL;
     for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
@@ -292,12 +295,12 @@ static void add_all(session *s, const bench_mix *mix) {
         level_4 = add_figure(s, finest, NULL);
     }
     for (uint32_t l = 0; l < bench_lod_count; l++) {
-        add_figure(s, add_frame(s, bench_frame_near(mix, &bench_lods[l], false)), level_4);
-        add_figure(s, add_frame(s, bench_frame_near(mix, &bench_lods[l], true)), level_4);
+        add_figure(s, add_frame(s, bench_frame_near(mix, &bench_lods[l], pixels, false)), level_4);
+        add_figure(s, add_frame(s, bench_frame_near(mix, &bench_lods[l], pixels, true)), level_4);
     }
-    const bench_frame *const crowd = add_frame(s, bench_frame_crowd(mix, false));
+    const bench_frame *const crowd = add_frame(s, bench_frame_crowd(mix, pixels, false));
     add_figure(s, crowd, level_4);
-    add_figure(s, add_frame(s, bench_frame_crowd(mix, true)), level_4);
+    add_figure(s, add_frame(s, bench_frame_crowd(mix, pixels, true)), level_4);
     add_threads(s, finest);
     add_threads(s, crowd);
 }
@@ -364,8 +367,8 @@ static bool run(session *s, char **paths, int path_count) {
     }
     create_buffers(s);
     bench_print_conditions(stdout);
-    printf("%d rounds; vertices go to buffers of %zu KiB\n", s->options.rounds,
-           s->options.buffer_size / 1024);
+    printf("%d rounds; tolerance %g pixels; vertices go to buffers of %zu KiB\n", s->options.rounds,
+           (double)s->options.pixels, s->options.buffer_size / 1024);
     bool good = path_count > 0 || bench_mesh(s, NULL);
     for (int p = 0; p < path_count; p++)
         good &= bench_mesh(s, paths[p]);
@@ -384,6 +387,8 @@ static uint32_t read_number(const char *text, uint32_t low, uint32_t high) {
 
 static bool parse_option(int option, options *to) {
     switch (option) {
+    case 'p':
+        return (to->pixels = strtof(optarg, NULL)) > 0 && isfinite(to->pixels);
     case 'f':
         to->fast = true;
         return true;
@@ -406,13 +411,20 @@ static bool parse_option(int option, options *to) {
 }
 
 int bench_plan(int argc, char **argv) {
-    static const struct option names[] = {
-        {"fast", no_argument, NULL, 'f'},         {"threads", required_argument, NULL, 't'},
-        {"rounds", required_argument, NULL, 'r'}, {"quick", no_argument, NULL, 'q'},
-        {"buffer", required_argument, NULL, 'b'}, {"csv", required_argument, NULL, 'c'},
-        {"help", no_argument, NULL, 'h'},         {0}};
-    static session s = {
-        .options = {.threads = 2, .rounds = 15, .sample_seconds = 2e-3, .buffer_size = 64 * 1024}};
+    static const struct option names[] = {{"pixels", required_argument, NULL, 'p'},
+                                          {"fast", no_argument, NULL, 'f'},
+                                          {"threads", required_argument, NULL, 't'},
+                                          {"rounds", required_argument, NULL, 'r'},
+                                          {"quick", no_argument, NULL, 'q'},
+                                          {"buffer", required_argument, NULL, 'b'},
+                                          {"csv", required_argument, NULL, 'c'},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {0}};
+    static session s = {.options = {.pixels = 4,
+                                    .threads = 2,
+                                    .rounds = 15,
+                                    .sample_seconds = 2e-3,
+                                    .buffer_size = 64 * 1024}};
     int which = 0;
     for (int option; (option = getopt_long(argc, argv, "h", names, &which)) != -1;) {
         if (option == 'h') {
