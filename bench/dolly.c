@@ -29,6 +29,7 @@ static const char help[] =
     "  no_morph         the largest movement of all points when morphing is off\n\n"
     "  --lod NAME       how levels are chosen: length (default) or another of limn-bench plan\n"
     "  --pixels N       tolerance (default 8)\n"
+    "  --min-level N    of all edges (default 0)\n"
     "  --from D, --to D distances of the first and the last frame (default 16 and 1)\n"
     "  --frames N       (default 600) steps are equal shares of the distance\n";
 
@@ -127,6 +128,9 @@ static bool parse_option(int option, options *to) {
         return lod != NULL;
     case 'p':
         return (to->desc.pixels = (float)read_positive(optarg)) > 0;
+    case 'm':
+        return (to->desc.min_level = (float)read_positive(optarg)) > 0 &&
+               to->desc.min_level <= LIMN_LEVEL_MAX;
     case 'f':
         return (to->from = read_positive(optarg)) > 0;
     case 't':
@@ -141,6 +145,7 @@ static bool parse_option(int option, options *to) {
 int bench_dolly(int argc, char **argv) {
     static const struct option names[] = {{"lod", required_argument, NULL, 'l'},
                                           {"pixels", required_argument, NULL, 'p'},
+                                          {"min-level", required_argument, NULL, 'm'},
                                           {"from", required_argument, NULL, 'f'},
                                           {"to", required_argument, NULL, 't'},
                                           {"frames", required_argument, NULL, 'n'},
