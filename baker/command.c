@@ -3,7 +3,6 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 int limni_usage_error(const char *command, const char *format, ...) {
@@ -41,15 +40,6 @@ bool limni_pack_file_open(limni_pack_file *file, const char *path) {
 
 void limni_pack_file_close(limni_pack_file *file) {
     limni_blob_file_close(&file->blob);
-}
-
-bool limni_parse_number(const char *text, uint32_t max, uint32_t *value) {
-    if (text[0] < '0' || text[0] > '9') return false; // strtoul also takes blanks and signs
-    char *end;
-    const unsigned long number = strtoul(text, &end, 10);
-    if (*end != '\0' || number > max) return false;
-    *value = (uint32_t)number;
-    return true;
 }
 
 static uint32_t repair_step(const char *name, size_t length) {

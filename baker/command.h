@@ -34,9 +34,6 @@ typedef struct limni_pack_file {
 bool limni_pack_file_open(limni_pack_file *file, const char *path);
 void limni_pack_file_close(limni_pack_file *file);
 
-/// Reads an unsigned number of at most `max`.
-bool limni_parse_number(const char *text, uint32_t max, uint32_t *value);
-
 /// Reads the argument of --repair: names of steps separated by commas; NULL means all.
 bool limni_parse_repair(const char *text, uint32_t *repair);
 

@@ -8,27 +8,30 @@
 #include <string.h>
 
 static const char help[] =
-    "usage: limn export FILE.limn --level N -o OUT.obj|OUT.ply [--weld]\n\n"
-    "Evaluates the bind pose at a uniform level and writes a triangle mesh.\n\n"
-    "  -l, --level N       0 (3 vertices per face) to 4 (153 vertices, 256 triangles per face)\n"
-    "  -o, --output FILE   .obj (text) or .ply (binary)\n"
-    "      --weld          merge the vertices that neighbouring patches share, only where all bits "
-    "of\n"
-    "                      their positions are equal; otherwise every patch has its own\n"
-    "  -h, --help          this text\n\n"
-    "All meshes of the file are written: as objects in OBJ, one after the other in PLY.\n";
+    "usage: limn export FILE.limn --level L|--eye X,Y,Z -o OUT.obj|OUT.ply [OPTIONS]\n\n"
+    "Writes the triangles that a frame draws of the bind pose: everything at one level, or with\n"
+    "levels of detail for an eye.\n\n"
+    "  -o, --output FILE       .obj (text) or .ply (binary)\n"
+    "  -l, --level L           0 (3 vertices per face) to 4 (153, of 256 triangles); between\n"
+    "                          whole numbers, the next level on its way (morphing)\n"
+    "      --weld              merge the vertices that neighbouring patches share, only where\n"
+    "                          all bits of their positions are equal; otherwise every patch has\n"
+    "                          its own\n"
+    "  -h, --help              this text\n\n" LIMNI_FRAME_HELP
+    "\nAll meshes of the file are written: as objects in OBJ, one after the other in PLY. Of a\n"
+    "closed mesh that is not culled, --weld makes a closed surface.\n";
 
 typedef struct arguments {
     const char *input, *output;
-    uint32_t level;
-    bool has_level, weld, ply, help;
+    limni_frame_options frame;
+    bool weld, ply, help;
 } arguments;
 
 static const struct option options[] = {
-    {"level", required_argument, NULL, 'l'},
     {"output", required_argument, NULL, 'o'},
     {"weld", no_argument, NULL, 'w'},
     {"help", no_argument, NULL, 'h'},
+    LIMNI_FRAME_OPTIONS(LIMNI_FRAME_LONG_OPTION) // with their commas
     {0},
 };
 
@@ -40,7 +43,12 @@ static bool ends_with(const char *text, const char *end) {
 static int check(int argc, char **argv, arguments *given) {
     if (optind + 1 != argc) return limni_usage_error("export", "give one .limn file");
     given->input = argv[optind];
-    if (!given->has_level) return limni_usage_error("export", "there is no level: --level 0 to 4");
+    if (!limni_frame_given(&given->frame, LIMNI_FRAME_LEVEL) &&
+        !limni_frame_given(&given->frame, LIMNI_FRAME_EYE))
+        return limni_usage_error("export",
+                                 "there is no level and no eye: --level L or --eye X,Y,Z");
+    if (!limni_frame_options_check(&given->frame))
+        return limni_usage_error("export", "%s", given->frame.error);
     if (!given->output)
         return limni_usage_error("export", "there is no output: -o OUT.obj or .ply");
     given->ply = ends_with(given->output, ".ply");
@@ -50,56 +58,85 @@ static int check(int argc, char **argv, arguments *given) {
     return LIMNI_EXIT_OK;
 }
 
+static int parse_frame_option(int option, arguments *given) {
+    if (limni_frame_option_parse(&given->frame, option, optarg)) return LIMNI_EXIT_OK;
+    return limni_usage_error("export", "%s", given->frame.error);
+}
+
+static int parse_option(int option, arguments *given) {
+    switch (option) {
+    case 'o':
+        given->output = optarg;
+        return LIMNI_EXIT_OK;
+    case 'w':
+        given->weld = true;
+        return LIMNI_EXIT_OK;
+    case 'h':
+        given->help = true;
+        return LIMNI_EXIT_OK;
+    case 'l':
+        return parse_frame_option(LIMNI_FRAME_LEVEL, given);
+    default:
+        if (option >= LIMNI_FRAME_FIRST) return parse_frame_option(option, given);
+        return limni_usage_error("export", "wrong option");
+    }
+}
+
 static int parse(int argc, char **argv, arguments *given) {
     for (int option; (option = getopt_long(argc, argv, "l:o:h", options, NULL)) != -1;) {
-        switch (option) {
-        case 'l':
-            if (!limni_parse_number(optarg, LIMN_LEVEL_MAX, &given->level))
-                return limni_usage_error("export", "'%s' is not a level from 0 to 4", optarg);
-            given->has_level = true;
-            break;
-        case 'o':
-            given->output = optarg;
-            break;
-        case 'w':
-            given->weld = true;
-            break;
-        case 'h':
-            given->help = true;
-            return LIMNI_EXIT_OK;
-        default:
-            return limni_usage_error("export", "wrong option");
-        }
+        const int status = parse_option(option, given);
+        if (status != LIMNI_EXIT_OK || given->help) return status;
     }
     return check(argc, argv, given);
 }
 
+/// What was asked for and not found.
+static void print_notes(const limni_dense *dense, uint64_t budget) {
+    if (dense->index_count == 0)
+        fprintf(stderr, "note: %s: nothing of it is in view\n", dense->name);
+    if (budget > 0 && dense->evaluated_count > budget)
+        fprintf(stderr, "note: %s: the lowest levels have %llu vertices, more than --budget %llu\n",
+                dense->name, (unsigned long long)dense->evaluated_count,
+                (unsigned long long)budget);
+}
+
+static limn_bake_status write_meshes(limni_context *context, const limni_dense *meshes,
+                                     uint32_t mesh_count, const arguments *given) {
+    limni_output_file file;
+    if (!limni_output_open(&file, given->output))
+        return limni_fail(context, LIMN_BAKE_IO, "%s: %s", given->output, file.error);
+    if (given->ply) {
+        limni_dense_write_ply(meshes, mesh_count, file.stream);
+    } else {
+        limni_dense_write_obj(meshes, mesh_count, file.stream);
+    }
+    if (limni_output_commit(&file)) return LIMN_BAKE_OK;
+    return limni_fail(context, LIMN_BAKE_IO, "%s: %s", given->output, file.error);
+}
+
 static limn_bake_status export_pack(limni_context *context, const limn_pack *pack,
-                                    const arguments *given) {
+                                    arguments *given) {
+    const limni_bounds bounds = limni_bounds_of(pack, 0, pack->mesh_count);
+    limni_frame frame;
+    if (!limni_frame_resolve(&given->frame, &bounds, &frame))
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s", given->frame.error);
     limni_dense *const meshes = limni_allocate(context, pack->mesh_count, sizeof *meshes);
     if (!meshes) return LIMN_BAKE_MEMORY;
     uint64_t vertex_count = 0;
     for (uint32_t m = 0; m < pack->mesh_count; m++) {
         const limn_mesh mesh = limn_pack_mesh(pack, m);
-        LIMNI_TRY(limni_dense_build(context, &mesh, given->level, given->weld, &meshes[m]));
+        LIMNI_TRY(limni_dense_build(context, &mesh, &frame, given->weld, &meshes[m]));
         vertex_count += meshes[m].vertex_count;
     }
     if (vertex_count > UINT32_MAX)
         return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: too many vertices for one file",
                           given->output);
-    limni_output_file file;
-    if (!limni_output_open(&file, given->output))
-        return limni_fail(context, LIMN_BAKE_IO, "%s: %s", given->output, file.error);
-    if (given->ply) {
-        limni_dense_write_ply(meshes, pack->mesh_count, file.stream);
-    } else {
-        limni_dense_write_obj(meshes, pack->mesh_count, file.stream);
-    }
-    if (!limni_output_commit(&file))
-        return limni_fail(context, LIMN_BAKE_IO, "%s: %s", given->output, file.error);
-    for (uint32_t m = 0; m < pack->mesh_count; m++)
+    LIMNI_TRY(write_meshes(context, meshes, pack->mesh_count, given));
+    for (uint32_t m = 0; m < pack->mesh_count; m++) {
         printf("%s: %s: %u vertices, %llu triangles\n", given->output, meshes[m].name,
                meshes[m].vertex_count, (unsigned long long)(meshes[m].index_count / 3));
+        print_notes(&meshes[m], frame.desc.vertex_budget);
+    }
     return LIMN_BAKE_OK;
 }
 

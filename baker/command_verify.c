@@ -7,6 +7,7 @@
 #ifdef LIMNI_WITH_OPENSUBDIV
 
 #include "compare.h"
+#include "numbers.h"
 
 #include <math.h>
 #include <stdlib.h>

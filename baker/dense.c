@@ -43,21 +43,31 @@ static uint32_t *find_place(const place_table *table, const limni_dense *dense, 
     }
 }
 
-/// Moves the vertices that are kept to the front. Fills `moved` with the new index of each.
-static void weld_vertices(const limn_mesh *mesh, uint32_t level, place_table *table,
-                          limni_dense *dense, uint32_t *moved) {
-    const uint32_t row_count = mesh->domain->row_counts[level];
+/// Marks with LIMNI_NONE the vertices that no triangle uses: rows that a coarser edge skips.
+static void mark_unused(const limni_dense *dense, uint32_t *moved) {
+    memset(moved, 0xff, dense->vertex_count * sizeof *moved);
+    for (uint64_t i = 0; i < dense->index_count; i++)
+        moved[dense->indices[i]] = 0;
+}
+
+/// Moves the vertices that are kept to the front. Fills `moved`, where they are not LIMNI_NONE, with
+/// the new index of each. table: NULL: none are merged.
+static void compact_vertices(const limn_plan *plan, place_table *table, limni_dense *dense,
+                             uint32_t *moved) {
+    const limn_domain *const domain = plan->mesh->domain;
     uint32_t kept = 0;
-    for (uint32_t patch = 0; patch < mesh->patch_count; patch++) {
+    for (uint32_t p = 0; p < plan->patch_count; p++) {
+        const limn_plan_patch *const patch = &plan->patches[p];
         uint32_t corners[LIMN_CORNER_MAX];
-        limn_mesh_corners(mesh, patch, corners);
-        for (uint32_t row = 0; row < row_count; row++) {
-            const size_t vertex = (size_t)patch * row_count + row;
+        limn_mesh_corners(plan->mesh, patch->patch, corners);
+        for (uint32_t row = 0; row < domain->row_counts[patch->level]; row++) {
+            const uint32_t vertex = patch->first_vertex + row;
+            if (moved[vertex] == LIMNI_NONE) continue;
             float position[3];
             memcpy(position, dense->vertices[vertex], sizeof position);
             moved[vertex] = kept;
-            if (mesh->domain->rows[row].edges) {
-                const place at = place_of(mesh->domain, corners, row);
+            if (table && domain->rows[row].edges) {
+                const place at = place_of(domain, corners, row);
                 uint32_t *const found = find_place(table, dense, at, position);
                 if (*found == LIMNI_NONE) table->places[ *found = kept] = at;
                 moved[vertex] = *found;
@@ -68,50 +78,92 @@ static void weld_vertices(const limn_mesh *mesh, uint32_t level, place_table *ta
     dense->vertex_count = kept;
 }
 
-/// Merges the vertices that patches share, where all bits of their positions are equal.
-static limn_bake_status weld(limni_context *context, const limn_mesh *mesh, uint32_t level,
-                             limni_dense *dense) {
-    place_table table = {.size = limni_hash_size(dense->vertex_count)};
-    table.vertices = limni_allocate(context, table.size, sizeof *table.vertices);
-    table.places = limni_allocate(context, dense->vertex_count, sizeof *table.places);
+/// Drops vertices that are not used, and if asked to merges those that patches share, where all bits
+/// of their positions are equal.
+static limn_bake_status compact(limni_context *context, const limn_plan *plan, bool weld,
+                                limni_dense *dense) {
     uint32_t *const moved = limni_allocate(context, dense->vertex_count, sizeof *moved);
-    if (!table.vertices || !table.places || !moved) return LIMN_BAKE_MEMORY;
-    memset(table.vertices, 0xff, table.size * sizeof *table.vertices);
-    weld_vertices(mesh, level, &table, dense, moved);
+    if (!moved) return LIMN_BAKE_MEMORY;
+    mark_unused(dense, moved);
+    if (weld) {
+        place_table table = {.size = limni_hash_size(dense->vertex_count)};
+        table.vertices = limni_allocate(context, table.size, sizeof *table.vertices);
+        table.places = limni_allocate(context, dense->vertex_count, sizeof *table.places);
+        if (!table.vertices || !table.places) return LIMN_BAKE_MEMORY;
+        memset(table.vertices, 0xff, table.size * sizeof *table.vertices);
+        compact_vertices(plan, &table, dense, moved);
+        limni_release(context, table.vertices);
+        limni_release(context, table.places);
+    } else {
+        compact_vertices(plan, NULL, dense, moved);
+    }
     for (uint64_t i = 0; i < dense->index_count; i++)
         dense->indices[i] = moved[dense->indices[i]];
-    limni_release(context, table.vertices);
-    limni_release(context, table.places);
     limni_release(context, moved);
     return LIMN_BAKE_OK;
 }
 
-limn_bake_status limni_dense_build(limni_context *context, const limn_mesh *mesh, uint32_t level,
-                                   bool weld_equal, limni_dense *dense) {
-    const limn_plan plan = limn_plan_uniform(mesh, level);
-    if (plan.vertex_count > UINT32_MAX / 4)
+/// The indices of all templates, and the plan that uses them.
+typedef struct planned {
+    uint16_t *indices;
+    limn_template *templates;
+    void *memory;
+    limn_plan plan;
+} planned;
+
+static limn_bake_status plan_frame(limni_context *context, const limn_mesh *mesh,
+                                   const limni_frame *frame, planned *result) {
+    const limn_domain *const domain = mesh->domain;
+    const uint32_t index_count =
+        limn_templates_write(domain, LIMN_TOPOLOGY_TRIANGLES, sizeof(uint16_t), NULL, NULL);
+    result->indices = limni_allocate(context, index_count, sizeof *result->indices);
+    result->templates =
+        limni_allocate(context, limn_template_count(domain), sizeof *result->templates);
+    result->memory = limni_allocate(context, limn_plan_size(mesh), 1);
+    if (!result->indices || !result->templates || !result->memory) return LIMN_BAKE_MEMORY;
+    limn_templates_write(domain, LIMN_TOPOLOGY_TRIANGLES, sizeof(uint16_t), result->indices,
+                         result->templates);
+    result->plan = limn_plan_build(mesh, mesh->controls, &frame->view, 1, &frame->desc,
+                                   result->templates, result->memory);
+    return LIMN_BAKE_OK;
+}
+
+static void list_triangles(const planned *frame, uint32_t *dst) {
+    for (uint32_t p = 0; p < frame->plan.patch_count; p++) {
+        const limn_plan_patch *const patch = &frame->plan.patches[p];
+        const limn_template template = frame->templates[patch->template_index];
+        for (uint32_t i = 0; i < template.index_count; i++)
+            *dst++ = patch->first_vertex + frame->indices[template.first_index + i];
+    }
+}
+
+limn_bake_status limni_dense_build(limni_context *context, const limn_mesh *mesh,
+                                   const limni_frame *frame, bool weld, limni_dense *dense) {
+    if (limni_frame_vertex_bound(frame, mesh) > UINT32_MAX / 4)
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                          "%s: level %u has too many vertices for one mesh", mesh->name, level);
+                          "%s: may have too many vertices for one mesh; lower --level or "
+                          "--max-level",
+                          mesh->name);
+    planned drawn;
+    LIMNI_TRY(plan_frame(context, mesh, frame, &drawn));
+    const limn_plan *const plan = &drawn.plan;
     *dense = (limni_dense){
         .name = mesh->name,
-        .vertices = limni_allocate(context, (size_t)plan.vertex_count, sizeof *dense->vertices),
-        .indices = limni_allocate(context, (size_t)plan.index_count, sizeof *dense->indices),
-        .vertex_count = (uint32_t)plan.vertex_count,
-        .index_count = plan.index_count,
+        .vertices = limni_allocate(context, (size_t)plan->vertex_count, sizeof *dense->vertices),
+        .indices = limni_allocate(context, (size_t)plan->index_count, sizeof *dense->indices),
+        .vertex_count = (uint32_t)plan->vertex_count,
+        .index_count = plan->index_count,
+        .evaluated_count = plan->vertex_count,
     };
     if (!dense->vertices || !dense->indices) return LIMN_BAKE_MEMORY;
-    limn_evaluate(&plan, mesh->controls, 0, plan.patch_count,
+    limn_evaluate(plan, mesh->controls, 0, plan->patch_count,
                   &(limn_output){.vertices = dense->vertices});
-
-    const uint16_t *const indices = mesh->domain->indices[level];
-    const uint32_t index_count = mesh->domain->index_counts[level];
-    uint32_t *dst = dense->indices;
-    for (uint32_t patch = 0; patch < plan.patch_count; patch++) {
-        const uint32_t first = (uint32_t)limn_plan_first_vertex(&plan, patch);
-        for (uint32_t i = 0; i < index_count; i++)
-            *dst++ = first + indices[i];
-    }
-    return weld_equal ? weld(context, mesh, level, dense) : LIMN_BAKE_OK;
+    list_triangles(&drawn, dense->indices);
+    LIMNI_TRY(compact(context, plan, weld, dense));
+    limni_release(context, drawn.indices);
+    limni_release(context, drawn.templates);
+    limni_release(context, drawn.memory);
+    return LIMN_BAKE_OK;
 }
 
 void limni_dense_write_obj(const limni_dense *meshes, uint32_t mesh_count, FILE *stream) {
