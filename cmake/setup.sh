@@ -66,12 +66,14 @@ sample() {
     $view $folder/imp.limn --png $folder/imp.png
     $view $folder/imp.limn --png $folder/imp_wireframe.png --level 2 --wireframe
     $view $folder/imp.limn --png $folder/imp_control_mesh.png --control-mesh
+    $view $folder/imp.limn --png $folder/imp_levels.png --eye 0.8,1.9,3.1 --tolerance 30 --colour levels --wireframe
 
     say "Look at these, in $(pwd)/$folder:"
     cat <<END
 imp.png                the surface, at level 4
 imp_wireframe.png      its triangles at level 2
 imp_control_mesh.png   the surface in its control mesh
+imp_levels.png         a frame with levels of detail, from blue (0) to orange (4), and its seams
 imp_level4.obj         the dense mesh, closed, as an OBJ
 imp.limn               the baked file
 imp.txt                what is in it

@@ -56,6 +56,13 @@ expect_picture() {
     [ "$(wc -c <"$picture")" -gt $((height * 10)) ] || fail "$name: nothing to be seen in it"
 }
 
+# draw NAME OPTION...
+draw() {
+    name=$1
+    shift
+    "$view" "$file" --png "$folder/$name.png" "$@" || fail "$name: exit status $?"
+}
+
 # expect_different NAME NAME: the options between them do something.
 expect_different() {
     if cmp -s "$folder/$1.png" "$folder/$2.png"; then fail "$1 and $2 are the same picture"; fi
@@ -82,6 +89,19 @@ expect_picture wireframe 160 120 --wireframe --level 2
 expect_picture control_mesh 160 120 --control-mesh
 expect_picture everything 161 97 --wireframe --control-mesh --level 1 --mesh 0
 expect_picture tall 60 240
+eye="--eye 0.5,1.8,2 --target 0,1.6,0 --tolerance 60"
+draw levels $eye --size 160x120 --colour levels --wireframe
+draw frame_lines $eye --size 160x120 --wireframe
+draw whole $eye --viewport 160x90 --colour levels
+draw culled $eye --viewport 160x90 --colour levels --cull
+draw overview $eye --viewport 160x90 --colour levels --cull --overview
+draw nothing --size 32x32 --eye 0,0,9 --target 0,0,20 --cull
+expect_different wireframe frame_lines
+expect_different frame_lines levels
+expect_different culled overview
+cmp -s "$folder/whole.png" "$folder/culled.png" || fail "what --cull leaves out can be seen"
+[ "$(bytes "$folder/whole.png" 16 8)" = "0 0 0 160 0 0 0 90" ] || fail "a frame is not as large as its viewport"
+
 expect_different shaded level_0
 expect_different shaded wireframe
 expect_different shaded control_mesh
@@ -110,7 +130,7 @@ expect_error 2 "$file" --png
 expect_error 2 "$file" --png ""
 expect_error 2 "$file" "$file" --png "$out"
 expect_error 2 "$file" --png "$out" --unknown
-for level in 5 -1 1x x "" 4294967296 18446744073709551617; do
+for level in 5 -1 1x x "" nan 4294967296 18446744073709551617; do
     expect_error 2 "$file" --png "$out" --level "$level"
 done
 for pixels in 0x10 10x0 10 10x 10x10x10 x10 8193x10 10x8193 -1x10 "10 x10" 4294967297x10 ""; do
@@ -120,12 +140,23 @@ for mesh in -1 x 0x "" 4294967296; do
     expect_error 2 "$file" --png "$out" --mesh "$mesh"
 done
 
+expect_error 2 "$file" --png "$out" --colour red
+expect_error 2 "$file" --png "$out" --overview
+expect_error 2 "$file" --png "$out" --lod length
+expect_error 2 "$file" --png "$out" --eye 1,2
+expect_error 2 "$file" --png "$out" --eye 1,2,3 --fov 180
+expect_error 2 "$file" --png "$out" --eye 1,2,3 --level 2 --tolerance 3
+expect_error 2 "$file" --png "$out" --eye 1,2,3 --viewport 9000x9000
+expect_error 1 "$file" --png "$out" --eye 1,2,3 --target 1,2,3
+expect_error 1 "$file" --png "$out" --eye 1,2,3 --up 0,0,0
+
 # A failure leaves an older picture as it was.
 cp "$folder/shaded.png" "$folder/kept.png"
 "$view" "$folder/truncated.limn" --png "$folder/kept.png" 2>/dev/null
 cmp -s "$folder/shaded.png" "$folder/kept.png" || fail "a failure damaged an older picture"
 
 "$view" --help | grep -q -e --control-mesh || fail "--help"
+"$view" --help | grep -q -e --tolerance || fail "--help says nothing about frames"
 "$view" --version | grep -q '^limn-view [0-9]*\.[0-9]*\.[0-9]*$' || fail "--version"
 
 if [ $failures -gt 0 ]; then

@@ -49,21 +49,23 @@ void view_framing_include(view_framing *framing, const float point[3]) {
     framing->farthest = fmin(framing->farthest, depth);
 }
 
-static void set_view(view_camera *camera, const double eye[3]) {
+/// rotation: the camera's axes; eye: along these
+static void set_view(view_camera *camera, const double rotation[3][3], const double eye[3]) {
     for (int row = 0; row < 3; row++) {
         for (int column = 0; column < 3; column++)
-            camera->view[4 * column + row] = (float)axes[row][column];
+            camera->view[4 * column + row] = (float)rotation[row][column];
         camera->view[12 + row] = (float)-eye[row];
         camera->view[4 * row + 3] = 0;
     }
     camera->view[15] = 1;
 }
 
-static void set_projection(view_camera *camera, double aspect, double near, double far) {
+/// tangents: of half the angle of view, across and up
+static void set_projection(view_camera *camera, const double tangents[2], double near, double far) {
     for (int i = 0; i < 16; i++)
         camera->projection[i] = 0;
-    camera->projection[0] = (float)(1 / view_tangent(aspect, 0));
-    camera->projection[5] = (float)(1 / view_tangent(aspect, 1));
+    camera->projection[0] = (float)(1 / tangents[0]);
+    camera->projection[5] = (float)(1 / tangents[1]);
     camera->projection[10] = (float)((far + near) / (near - far));
     camera->projection[11] = -1;
     camera->projection[14] = (float)(2 * far * near / (near - far));
@@ -83,8 +85,22 @@ bool view_framing_camera(const view_framing *framing, double aspect, view_camera
     if (!(fabs(eye[0]) + fabs(eye[1]) + fabs(eye[2]) + distance < largest)) return false;
 
     eye[2] = framing->farthest + distance;
-    set_view(camera, eye);
+    set_view(camera, axes, eye);
     const double near = fmax((distance - depth) * 0.9, distance * 1e-3);
-    set_projection(camera, aspect, near, distance * 1.02);
+    const double tangents[2] = {view_tangent(aspect, 0), view_tangent(aspect, 1)};
+    set_projection(camera, tangents, near, distance * 1.02);
     return true;
+}
+
+view_camera view_camera_of_frame(const limni_camera *source, double aspect) {
+    double eye[3];
+    for (int row = 0; row < 3; row++)
+        eye[row] = dot(source->axes[row], source->eye);
+
+    view_camera camera;
+    const double tangent = tan((double)source->fov / 2);
+    set_view(&camera, source->axes, eye);
+    set_projection(&camera, (const double[2]){tangent * aspect, tangent},
+                   (double)source->near_plane, (double)source->far_plane);
+    return camera;
 }

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A perspective camera that looks at things from a three-quarter angle, +Y up, and stands just far
- * enough away to see all of them.
+ * Perspective cameras: one that looks at things from a three-quarter angle, +Y up, and stands just
+ * far enough away to see all of them; and that of a frame.
  */
 #ifndef VIEW_CAMERA_H
 #define VIEW_CAMERA_H
 
+#include "frame.h"
 #include <stdbool.h>
 
 /// What a picture must show. Start with view_framing_start(), include every point, then ask for
@@ -30,5 +31,8 @@ void view_framing_include(view_framing *framing, const float point[3]);
 
 /// False if no point was included, or if the points are too far apart for the arithmetic.
 bool view_framing_camera(const view_framing *framing, double aspect, view_camera *camera);
+
+/// The camera of a frame, whose vertical angle of view it keeps whatever the aspect.
+view_camera view_camera_of_frame(const limni_camera *source, double aspect);
 
 #endif

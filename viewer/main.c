@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* limn-view: arguments and exit statuses. */
-#include "limn/limn.h"
+#include "numbers.h"
 #include "picture.h"
 #include "report.h"
 #include "scene.h"
 #include "target.h"
-#include <ctype.h>
 #include <getopt.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { STATUS_OK = 0, STATUS_FAILED = 1, STATUS_USAGE = 2 };
@@ -17,93 +15,75 @@ static const char help_text[] =
     "Usage: limn-view FILE.limn --png OUT.png [OPTION]...\n"
     "Draws the meshes of a baked .limn file as a PNG picture. Needs no window system.\n"
     "\n"
-    "  --png OUT.png   the picture to write; replaced only by a complete one\n"
-    "  --level N       subdivision level, 0 (one triangle per patch) to 4 (256); default 4\n"
-    "  --size WxH      width and height in pixels, up to 8192 each; default 1280x960\n"
-    "  --wireframe     draw the level's triangles, and the borders of patches stronger\n"
-    "  --control-mesh  draw the edges and points of the base mesh, faintly where hidden\n"
-    "  --mesh N        draw mesh N of the file only, counted from 0; default all meshes\n"
-    "  --help          print this and exit\n"
-    "  --version       print the version and exit\n"
-    "\n"
-    "The camera looks at the surface from the front (+Z), the right and above (+Y), and frames it\n"
-    "the same way at every level. The inside of an open surface is darker than its outside.\n"
-    "The same command writes the same bytes on one machine.\n"
+    "      --png OUT.png       the picture to write; replaced only by a complete one\n"
+    "      --level L           0 (one triangle per patch) to 4 (256); between whole numbers, the\n"
+    "                          next level on its way (morphing); default 4\n"
+    "      --size WxH          of the picture, in pixels, up to 8192 each; default 1280x960, or\n"
+    "                          with an eye the viewport\n"
+    "      --colour WHAT       clay (default), or levels: of each patch the highest of its edges;\n"
+    "                          0 blue, 1 light blue, 2 green, 3 yellow, 4 orange, and in between\n"
+    "                          while morphing\n"
+    "      --wireframe         draw triangles, and the borders of patches stronger\n"
+    "      --control-mesh      draw the edges and points of the base mesh, faintly where hidden\n"
+    "      --mesh N            draw mesh N of the file only, counted from 0; default all meshes\n"
+    "      --overview          look at the frame from where pictures without an eye are taken\n"
+    "      --help              print this and exit\n"
+    "      --version           print the version and exit\n"
+    "\n" LIMNI_FRAME_HELP "\n"
+    "Without an eye, the camera looks at the surface from the front (+Z), the right and above,\n"
+    "and frames it the same way at every level. The inside of an open surface is darker than its\n"
+    "outside. The same command writes the same bytes on one machine.\n"
     "\n"
     "Exit status: 0 the picture was written; 1 the file or the machine does not allow it;\n"
     "2 the command line is wrong. In the last two cases nothing is written.\n"
     "\n"
-    "Example: limn-view spot.limn --png spot.png --level 2 --wireframe --size 640x480\n";
+    "Example: limn-view spot.limn --png spot.png --eye 0,1,3 --colour levels --wireframe\n";
 
 static const char version_format[] = "limn-view %u.%u.%u\n";
 
-/// A decimal number at the start of `text`, without sign or space; `end` is behind it.
-static bool parse_number(const char *text, unsigned long maximum, unsigned long *number,
-                         const char **end) {
-    unsigned long value = 0;
-    if (!isdigit((unsigned char)*text)) return false;
-    for (; isdigit((unsigned char)*text); text++) {
-        const unsigned long digit = (unsigned long)(*text - '0');
-        if (digit > maximum || value > (maximum - digit) / 10) return false;
-        value = value * 10 + digit;
-    }
-    *number = value;
-    *end = text;
-    return true;
-}
-
-static bool parse_level(view_picture *picture, const char *text) {
-    unsigned long level;
-    const char *end;
-    if (!parse_number(text, LIMN_LEVEL_MAX, &level, &end) || *end)
-        return view_fail("--level '%s': not a number from 0 to %d", text, LIMN_LEVEL_MAX);
-    picture->level = (uint32_t)level;
-    return true;
-}
-
 static bool parse_size(view_picture *picture, const char *text) {
-    unsigned long width, height;
-    const char *end;
-    if (!parse_number(text, VIEW_TARGET_SIZE_MAX, &width, &end) || *end != 'x' ||
-        !parse_number(end + 1, VIEW_TARGET_SIZE_MAX, &height, &end) || *end || width == 0 ||
-        height == 0) {
-        return view_fail("--size '%s': not WIDTHxHEIGHT with 1 to %d pixels each", text,
-                         VIEW_TARGET_SIZE_MAX);
-    }
-    picture->width = (uint32_t)width;
-    picture->height = (uint32_t)height;
-    return true;
+    return limni_parse_size(text, VIEW_TARGET_SIZE_MAX, &picture->width, &picture->height) ||
+           view_fail("--size '%s': not WIDTHxHEIGHT with 1 to %d pixels each", text,
+                     VIEW_TARGET_SIZE_MAX);
 }
 
 static bool parse_mesh(view_picture *picture, const char *text) {
-    unsigned long mesh_index;
-    const char *end;
-    if (!parse_number(text, INT32_MAX, &mesh_index, &end) || *end)
+    uint32_t mesh_index;
+    if (!limni_parse_number(text, INT32_MAX, &mesh_index))
         return view_fail("--mesh '%s': not a mesh number, counted from 0", text);
     picture->mesh_index = (long)mesh_index;
     return true;
 }
 
+static bool parse_colour(view_picture *picture, const char *text) {
+    picture->level_colours = strcmp(text, "levels") == 0;
+    return picture->level_colours || strcmp(text, "clay") == 0 ||
+           view_fail("--colour '%s': not clay or levels", text);
+}
+
 enum option_key {
     KEY_PNG = 1,
-    KEY_LEVEL,
     KEY_SIZE,
+    KEY_COLOUR,
     KEY_WIREFRAME,
     KEY_CONTROL,
     KEY_MESH,
+    KEY_OVERVIEW,
     KEY_HELP,
     KEY_VERSION
 };
 
 static const struct option long_options[] = {
     {"png", required_argument, NULL, KEY_PNG},
-    {"level", required_argument, NULL, KEY_LEVEL},
     {"size", required_argument, NULL, KEY_SIZE},
+    {"colour", required_argument, NULL, KEY_COLOUR},
     {"wireframe", no_argument, NULL, KEY_WIREFRAME},
     {"control-mesh", no_argument, NULL, KEY_CONTROL},
     {"mesh", required_argument, NULL, KEY_MESH},
+    {"overview", no_argument, NULL, KEY_OVERVIEW},
     {"help", no_argument, NULL, KEY_HELP},
     {"version", no_argument, NULL, KEY_VERSION},
+    LIMNI_FRAME_OPTIONS(LIMNI_FRAME_LONG_OPTION) // with their commas
     {0},
 };
 
@@ -112,18 +92,22 @@ static bool apply_option(view_picture *picture, int key) {
     case KEY_PNG:
         picture->png_path = optarg;
         return true;
-    case KEY_LEVEL:
-        return parse_level(picture, optarg);
     case KEY_SIZE:
         return parse_size(picture, optarg);
+    case KEY_COLOUR:
+        return parse_colour(picture, optarg);
     case KEY_WIREFRAME:
         return picture->wireframe = true;
     case KEY_CONTROL:
         return picture->control_mesh = true;
     case KEY_MESH:
         return parse_mesh(picture, optarg);
+    case KEY_OVERVIEW:
+        return picture->overview = true;
     default:
-        return false; // getopt_long has said why
+        if (key < LIMNI_FRAME_FIRST) return false; // getopt_long has said why
+        return limni_frame_option_parse(&picture->frame, key, optarg) ||
+               view_fail("%s", picture->frame.error);
     }
 }
 
@@ -134,6 +118,20 @@ static bool check_paths(view_picture *picture, char *const *operands, int operan
     if (!*picture->png_path) return view_fail("--png '': no file name");
     picture->limn_path = operands[0];
     return true;
+}
+
+/// A picture of a frame has the size of its viewport.
+static bool check_frame(view_picture *picture) {
+    limni_frame_options *const frame = &picture->frame;
+    if (!limni_frame_options_check(frame)) return view_fail("%s", frame->error);
+    const bool has_eye = limni_frame_given(frame, LIMNI_FRAME_EYE);
+    if (picture->overview && !has_eye) return view_fail("--overview: there is no --eye");
+    if (picture->width) return true;
+    picture->width = has_eye ? frame->width : 1280;
+    picture->height = has_eye ? frame->height : 960;
+    return (picture->width <= VIEW_TARGET_SIZE_MAX && picture->height <= VIEW_TARGET_SIZE_MAX) ||
+           view_fail("--viewport %ux%u: a picture has at most %d pixels a side; give its --size",
+                     frame->width, frame->height, VIEW_TARGET_SIZE_MAX);
 }
 
 static int print_version(void) {
@@ -148,8 +146,7 @@ static int usage_error(void) {
 }
 
 int main(int argument_count, char **arguments) {
-    view_picture picture = {
-        .level = LIMN_LEVEL_MAX, .width = 1280, .height = 960, .mesh_index = VIEW_ALL_MESHES};
+    view_picture picture = {.frame.desc.level = LIMN_LEVEL_MAX, .mesh_index = VIEW_ALL_MESHES};
     int key;
     while ((key = getopt_long(argument_count, arguments, "", long_options, NULL)) != -1) {
         if (key == KEY_VERSION) return print_version();
@@ -159,6 +156,8 @@ int main(int argument_count, char **arguments) {
         }
         if (!apply_option(&picture, key)) return usage_error();
     }
-    if (!check_paths(&picture, arguments + optind, argument_count - optind)) return usage_error();
+    if (!check_paths(&picture, arguments + optind, argument_count - optind) ||
+        !check_frame(&picture))
+        return usage_error();
     return view_picture_make(&picture) ? STATUS_OK : STATUS_FAILED;
 }

@@ -51,15 +51,15 @@ static void add_triangle(view_vertex *vertices, const uint32_t corners[3]) {
     }
 }
 
-static void accumulate(const limn_plan *plan, view_vertex *vertices,
+static void accumulate(const limn_plan *plan, const uint16_t *indices, view_vertex *vertices,
                        const uint32_t *representatives) {
-    const limn_domain *const domain = plan->mesh->domain;
-    const uint16_t *const indices = domain->indices[plan->level];
-    for (uint32_t patch = 0; patch < plan->patch_count; patch++) {
-        const uint32_t *const first = representatives + limn_plan_first_vertex(plan, patch);
-        for (uint32_t index = 0; index < domain->index_counts[plan->level]; index += 3) {
-            const uint32_t corners[3] = {first[indices[index]], first[indices[index + 1]],
-                                         first[indices[index + 2]]};
+    for (uint32_t d = 0; d < plan->patch_count; d++) {
+        const limn_draw *const draw = &plan->draws[d];
+        const uint32_t *const first = representatives + draw->base_vertex;
+        const uint16_t *const triangles = indices + draw->first_index;
+        for (uint32_t i = 0; i < draw->index_count; i += 3) {
+            const uint32_t corners[3] = {first[triangles[i]], first[triangles[i + 1]],
+                                         first[triangles[i + 2]]};
             add_triangle(vertices, corners);
         }
     }
@@ -73,17 +73,17 @@ static void normalize(float vector[3]) {
         vector[axis] = length > 0 ? (float)(vector[axis] / length) : 0;
 }
 
-bool view_normals_compute(const limn_plan *plan, view_vertex *vertices) {
+bool view_normals_compute(const limn_plan *plan, const uint16_t *indices, view_vertex *vertices) {
     const size_t vertex_count = (size_t)plan->vertex_count;
     size_t table_size = 2;
     while (table_size < vertex_count * 2)
         table_size *= 2;
     uint32_t *const table = malloc(table_size * sizeof *table);
-    uint32_t *const representatives = malloc(vertex_count * sizeof *representatives);
+    uint32_t *const representatives = malloc((vertex_count + 1) * sizeof *representatives);
     const bool allocated = table && representatives;
     if (allocated) {
         find_representatives(vertices, vertex_count, table, table_size, representatives);
-        accumulate(plan, vertices, representatives);
+        accumulate(plan, indices, vertices, representatives);
         for (size_t vertex = 0; vertex < vertex_count; vertex++) {
             if (representatives[vertex] == vertex) normalize(vertices[vertex].normal);
             // A representative comes before all the others.

@@ -11,7 +11,7 @@
 
 /// Sets the normals of all vertices of an evaluated plan. Vertices of different patches with the
 /// same position are the same vertex of the surface, to the bit: that is what Limn promises.
-/// False if memory ran out; says nothing.
-bool view_normals_compute(const limn_plan *plan, view_vertex *vertices);
+/// `indices` are those of the templates. False if memory ran out; says nothing.
+bool view_normals_compute(const limn_plan *plan, const uint16_t *indices, view_vertex *vertices);
 
 #endif

@@ -19,11 +19,16 @@ static bool draw(const view_gl *gl, const view_scene *scene, const view_picture 
         .width = target->width,
         .height = target->height,
         .pixel_scale = (float)target->pixel_scale * line_scale(picture),
+        .level_colours = picture->level_colours,
         .wireframe = picture->wireframe,
         .control_mesh = picture->control_mesh,
     };
     const double aspect = (double)picture->width / picture->height;
-    if (!view_scene_frame(scene, aspect, picture->control_mesh, &frame.camera)) return false;
+    if (scene->frame.has_camera && !picture->overview) {
+        frame.camera = view_camera_of_frame(&scene->frame.camera, aspect);
+    } else if (!view_scene_frame(scene, aspect, picture->control_mesh, &frame.camera)) {
+        return false;
+    }
 
     view_renderer *const renderer = view_renderer_create(gl, scene);
     const bool drawn = renderer && view_renderer_draw(renderer, &frame);
@@ -47,7 +52,7 @@ static bool draw_and_write(const view_context *context, const view_scene *scene,
 
 bool view_picture_make(const view_picture *picture) {
     view_scene scene;
-    bool done = view_scene_open(&scene, picture->limn_path, picture->level, picture->mesh_index);
+    bool done = view_scene_open(&scene, picture->limn_path, &picture->frame, picture->mesh_index);
     if (done) {
         view_context *const context = view_context_create();
         done = context && draw_and_write(context, &scene, picture);

@@ -3,17 +3,18 @@
 #ifndef VIEW_PICTURE_H
 #define VIEW_PICTURE_H
 
-#include <stdbool.h>
-#include <stdint.h>
+#include "frame_options.h"
 
 typedef struct view_picture {
     const char *limn_path;
     const char *png_path;
-    uint32_t level; ///< up to LIMN_LEVEL_MAX
+    limni_frame_options frame; ///< checked
     uint32_t width, height;
     long mesh_index; ///< or VIEW_ALL_MESHES
+    bool level_colours;
     bool wireframe;
     bool control_mesh;
+    bool overview; ///< not from the eye of the frame
 } view_picture;
 
 /// Reports why and returns false on failure, in which case nothing is written.

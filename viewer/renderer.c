@@ -7,14 +7,14 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-/// Vertices and indices on the GPU, and how they are laid out.
+/// Vertices on the GPU, and how they and their indices are laid out.
 typedef struct geometry {
     GLuint layout;
     GLuint vertex_buffer;
-    GLuint index_buffer;
+    GLuint index_buffer; ///< of its own; 0: shared
 } geometry;
 
-/// A surface: one draw per patch, all with the same indices, in one call.
+/// A surface: one draw per patch, all with the indices of templates, in one call.
 typedef struct drawable {
     geometry surface;
     geometry control_edges;
@@ -29,6 +29,7 @@ struct view_renderer {
     const view_gl *gl;
     GLuint background, shaded, wireframe, lines, points; ///< programs
     GLuint empty_layout;
+    GLuint templates; ///< index buffer
     drawable *drawables;
     uint32_t drawable_count;
 };
@@ -66,51 +67,61 @@ static bool create_programs(view_renderer *renderer) {
            renderer->points;
 }
 
-/// Makes a layout, fills its buffers, and leaves the layout bound for the attributes.
-static geometry create_geometry(const view_gl *gl, const void *vertices, size_t vertices_size,
-                                const void *indices, size_t indices_size) {
-    geometry result;
+/// Fills a buffer that is bound from then on.
+static GLuint create_buffer(const view_gl *gl, GLenum target, const void *data, size_t size) {
+    GLuint buffer;
+    gl->GenBuffers(1, &buffer);
+    gl->BindBuffer(target, buffer);
+    gl->BufferData(target, (GLsizeiptr)size, data, GL_STATIC_DRAW);
+    return buffer;
+}
+
+/// Makes a layout, and leaves it bound for the index buffer and the attributes.
+static geometry create_geometry(const view_gl *gl, const void *vertices, size_t vertices_size) {
+    geometry result = {0};
     gl->GenVertexArrays(1, &result.layout);
-    gl->GenBuffers(1, &result.vertex_buffer);
-    gl->GenBuffers(1, &result.index_buffer);
     gl->BindVertexArray(result.layout);
-    gl->BindBuffer(GL_ARRAY_BUFFER, result.vertex_buffer);
-    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)vertices_size, vertices, GL_STATIC_DRAW);
-    gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, result.index_buffer);
-    gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)indices_size, indices, GL_STATIC_DRAW);
+    result.vertex_buffer = create_buffer(gl, GL_ARRAY_BUFFER, vertices, vertices_size);
     return result;
 }
 
-static void set_floats(const view_gl *gl, GLuint attribute, size_t stride, size_t offset) {
+static void set_floats(const view_gl *gl, GLuint attribute, GLint count, size_t stride,
+                       size_t offset) {
     gl->EnableVertexAttribArray(attribute);
-    gl->VertexAttribPointer(attribute, 3, GL_FLOAT, GL_FALSE, (GLsizei)stride,
+    gl->VertexAttribPointer(attribute, count, GL_FLOAT, GL_FALSE, (GLsizei)stride,
                             (const void *)(uintptr_t)offset);
 }
 
-static void upload_surface(const view_gl *gl, drawable *target, const view_surface *source) {
-    const uint32_t level = source->plan.level;
-    const limn_domain *const domain = source->mesh.domain;
-    target->surface = create_geometry(
-        gl, source->vertices, (size_t)source->plan.vertex_count * sizeof(view_vertex),
-        domain->indices[level], domain->index_counts[level] * sizeof(uint16_t));
-    set_floats(gl, 0, sizeof(view_vertex), offsetof(view_vertex, position));
-    set_floats(gl, 1, sizeof(view_vertex), offsetof(view_vertex, normal));
+static void upload_surface(const view_gl *gl, drawable *target, const view_surface *source,
+                           GLuint templates) {
+    target->surface = create_geometry(gl, source->vertices,
+                                      (size_t)source->plan.vertex_count * sizeof(view_vertex));
+    gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, templates);
+    set_floats(gl, 0, 3, sizeof(view_vertex), offsetof(view_vertex, position));
+    set_floats(gl, 1, 3, sizeof(view_vertex), offsetof(view_vertex, normal));
+    set_floats(gl, 3, 1, sizeof(view_vertex), offsetof(view_vertex, level));
     gl->EnableVertexAttribArray(2);
     gl->VertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_FALSE, (GLsizei)sizeof(view_vertex),
                             (const void *)offsetof(view_vertex, borders));
 }
 
+/// Control points, and indices of theirs.
+static geometry create_overlay(const view_gl *gl, const limn_mesh *mesh, const uint32_t *indices,
+                               size_t index_count) {
+    geometry result =
+        create_geometry(gl, mesh->controls, (size_t)mesh->control_count * sizeof(float[3]));
+    result.index_buffer =
+        create_buffer(gl, GL_ELEMENT_ARRAY_BUFFER, indices, index_count * sizeof *indices);
+    set_floats(gl, 0, 3, sizeof(float[3]), 0);
+    return result;
+}
+
 static void upload_control_mesh(const view_gl *gl, drawable *target, const view_surface *source) {
     const view_control_mesh *const control_mesh = &source->control_mesh;
-    const size_t controls_size = (size_t)source->mesh.control_count * sizeof(float[3]);
-    target->control_edges =
-        create_geometry(gl, source->mesh.controls, controls_size, control_mesh->edges,
-                        control_mesh->edge_count * sizeof(uint32_t[2]));
-    set_floats(gl, 0, sizeof(float[3]), 0);
+    target->control_edges = create_overlay(gl, &source->mesh, control_mesh->edges[0],
+                                           (size_t)control_mesh->edge_count * 2);
     target->control_points =
-        create_geometry(gl, source->mesh.controls, controls_size, control_mesh->points,
-                        control_mesh->point_count * sizeof(uint32_t));
-    set_floats(gl, 0, sizeof(float[3]), 0);
+        create_overlay(gl, &source->mesh, control_mesh->points, control_mesh->point_count);
 }
 
 static bool list_draws(drawable *target, const view_surface *source) {
@@ -120,9 +131,11 @@ static bool list_draws(drawable *target, const view_surface *source) {
     target->index_offsets = calloc(room, sizeof *target->index_offsets);
     target->base_vertices = calloc(room, sizeof *target->base_vertices);
     if (!target->index_counts || !target->index_offsets || !target->base_vertices) return false;
-    for (uint32_t patch = 0; patch < plan->patch_count; patch++) {
-        target->index_counts[patch] = source->mesh.domain->index_counts[plan->level];
-        target->base_vertices[patch] = (GLint)limn_plan_first_vertex(plan, patch);
+    for (uint32_t d = 0; d < plan->patch_count; d++) {
+        const limn_draw *const draw = &plan->draws[d];
+        target->index_counts[d] = (GLsizei)draw->index_count;
+        target->index_offsets[d] = (const void *)(uintptr_t)(draw->first_index * sizeof(uint16_t));
+        target->base_vertices[d] = draw->base_vertex;
     }
     return true;
 }
@@ -131,11 +144,14 @@ static bool create_drawables(view_renderer *renderer, const view_scene *scene) {
     renderer->drawables = calloc((size_t)scene->surface_count + 1, sizeof *renderer->drawables);
     if (!renderer->drawables) return view_fail("out of memory");
     renderer->drawable_count = scene->surface_count;
+    renderer->templates =
+        create_buffer(renderer->gl, GL_ARRAY_BUFFER, scene->templates.indices,
+                      scene->templates.index_count * sizeof *scene->templates.indices);
     for (uint32_t i = 0; i < scene->surface_count; i++) {
         drawable *const target = &renderer->drawables[i];
         target->source = &scene->surfaces[i];
         if (!list_draws(target, target->source)) return view_fail("out of memory");
-        upload_surface(renderer->gl, target, target->source);
+        upload_surface(renderer->gl, target, target->source, renderer->templates);
         upload_control_mesh(renderer->gl, target, target->source);
     }
     return view_gl_check(renderer->gl, "uploading the meshes");
@@ -168,6 +184,7 @@ static void use_program(const view_gl *gl, GLuint program, const view_frame *fra
     gl->Uniform2f(gl->GetUniformLocation(program, "viewport"), (float)frame->width,
                   (float)frame->height);
     gl->Uniform1f(gl->GetUniformLocation(program, "pixel_scale"), frame->pixel_scale);
+    gl->Uniform1f(gl->GetUniformLocation(program, "level_colours"), frame->level_colours);
 }
 
 static void draw_background(const view_renderer *renderer, const view_frame *frame) {
@@ -280,5 +297,6 @@ void view_renderer_destroy(view_renderer *renderer) {
     for (size_t i = 0; i < sizeof programs / sizeof *programs; i++)
         gl->DeleteProgram(programs[i]);
     gl->DeleteVertexArrays(1, &renderer->empty_layout);
+    gl->DeleteBuffers(1, &renderer->templates);
     free(renderer);
 }

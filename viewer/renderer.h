@@ -14,6 +14,7 @@ typedef struct view_frame {
     view_camera camera;
     uint32_t width, height; ///< of the framebuffer, which must encode sRGB
     float pixel_scale;      ///< framebuffer pixels per pixel of line width
+    bool level_colours;     ///< instead of clay
     bool wireframe;
     bool control_mesh;
 } view_frame;

@@ -6,9 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Base vertices are GLint, and every buffer must fit into memory.
-static bool can_be_drawn(const limn_plan *plan) {
-    return plan->vertex_count <= INT32_MAX && plan->vertex_count <= SIZE_MAX / sizeof(view_vertex);
+static bool has_too_many(const limn_mesh *mesh, uint64_t vertex_count) {
+    // Base vertices are GLint, and every buffer must fit into memory.
+    if (vertex_count <= INT32_MAX && vertex_count <= SIZE_MAX / sizeof(view_vertex)) return false;
+    return !view_fail("mesh '%s' has too many vertices", mesh->name);
 }
 
 /// The first rows of a domain are its corners. Sides of a patch have grid vectors (dx, dy) with a
@@ -20,52 +21,71 @@ static uint8_t border_steps(const limn_domain *domain, uint32_t edge, limn_row r
     return (uint8_t)((dx * (row.j - from.j) - dy * (row.i - from.i)) / LIMN_GRID_SIZE);
 }
 
-/// All patches are alike: the first one is worked out and the others copy it.
-static void set_borders(const limn_plan *plan, view_vertex *vertices) {
-    if (plan->patch_count == 0) return;
+/// What vertices have besides positions and normals.
+static void describe_vertices(const limn_plan *plan, view_vertex *vertices) {
     const limn_domain *const domain = plan->mesh->domain;
-    const uint32_t row_count = domain->row_counts[plan->level];
-    for (uint32_t row = 0; row < row_count; row++) {
-        for (uint32_t edge = 0; edge < sizeof vertices->borders; edge++)
-            vertices[row].borders[edge] = border_steps(domain, edge, domain->rows[row]);
-    }
-    for (uint32_t patch = 1; patch < plan->patch_count; patch++) {
-        view_vertex *const first = vertices + limn_plan_first_vertex(plan, patch);
-        for (uint32_t row = 0; row < row_count; row++)
-            memcpy(first[row].borders, vertices[row].borders, sizeof first[row].borders);
+    for (uint32_t p = 0; p < plan->patch_count; p++) {
+        const limn_plan_patch *const patch = &plan->patches[p];
+        const float level = patch->level > 0 ? (float)(patch->level - 1) + patch->morph : 0;
+        for (uint32_t row = 0; row < domain->row_counts[patch->level]; row++) {
+            view_vertex *const vertex = &vertices[patch->first_vertex + row];
+            vertex->level = level;
+            for (uint32_t edge = 0; edge < sizeof vertex->borders; edge++)
+                vertex->borders[edge] = border_steps(domain, edge, domain->rows[row]);
+        }
     }
 }
 
-static bool evaluate_surface(view_surface *surface, limn_mesh mesh, uint32_t level) {
-    surface->mesh = mesh;
-    surface->plan = limn_plan_uniform(&surface->mesh, level);
+static bool evaluate_surface(const view_scene *scene, view_surface *surface) {
+    const limn_mesh *const mesh = &surface->mesh;
+    if (has_too_many(mesh, limni_frame_vertex_bound(&scene->frame, mesh))) return false;
+    surface->plan_memory = malloc(limn_plan_size(mesh) + 1);
+    if (!surface->plan_memory) return view_fail("out of memory for mesh '%s'", mesh->name);
+    surface->plan = limn_plan_build(mesh, mesh->controls, &scene->frame.view, 1, &scene->frame.desc,
+                                    scene->templates.templates, surface->plan_memory);
     const limn_plan *const plan = &surface->plan;
-    if (!can_be_drawn(plan)) return view_fail("mesh '%s' has too many vertices", mesh.name);
     surface->vertices = calloc((size_t)plan->vertex_count + 1, sizeof *surface->vertices);
-    if (!surface->vertices) return view_fail("out of memory for mesh '%s'", mesh.name);
+    if (!surface->vertices) return view_fail("out of memory for mesh '%s'", mesh->name);
 
-    limn_evaluate(plan, surface->mesh.controls, 0, plan->patch_count,
+    limn_evaluate(plan, mesh->controls, 0, plan->patch_count,
                   &(limn_output){.vertices = surface->vertices, .stride = sizeof(view_vertex)});
-    set_borders(plan, surface->vertices);
-    if (!view_normals_compute(plan, surface->vertices) ||
-        !view_control_mesh_find(&surface->control_mesh, &surface->mesh)) {
-        return view_fail("out of memory for mesh '%s'", mesh.name);
+    describe_vertices(plan, surface->vertices);
+    if (!view_normals_compute(plan, scene->templates.indices, surface->vertices) ||
+        !view_control_mesh_find(&surface->control_mesh, mesh)) {
+        return view_fail("out of memory for mesh '%s'", mesh->name);
     }
     return true;
 }
 
-static bool evaluate_meshes(view_scene *scene, uint32_t level, uint32_t first, uint32_t count) {
+static bool list_templates(view_templates *templates) {
+    const limn_domain *const domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE);
+    const limn_topology topology = LIMN_TOPOLOGY_TRIANGLES;
+    templates->index_count = limn_templates_write(domain, topology, 2, NULL, NULL);
+    templates->indices = calloc(templates->index_count, sizeof *templates->indices);
+    templates->templates = calloc(limn_template_count(domain), sizeof *templates->templates);
+    if (!templates->indices || !templates->templates) return view_fail("out of memory");
+    limn_templates_write(domain, topology, 2, templates->indices, templates->templates);
+    return true;
+}
+
+static bool evaluate_meshes(view_scene *scene, limni_frame_options options, uint32_t first,
+                            uint32_t count) {
+    const limni_bounds bounds = limni_bounds_of(&scene->pack, first, count);
+    if (!limni_frame_resolve(&options, &bounds, &scene->frame))
+        return view_fail("%s", options.error);
+    if (!list_templates(&scene->templates)) return false;
     scene->surfaces = calloc((size_t)count + 1, sizeof *scene->surfaces);
     if (!scene->surfaces) return view_fail("out of memory for %u meshes", count);
     for (uint32_t i = 0; i < count; i++) {
         scene->surface_count = i + 1;
-        const limn_mesh mesh = limn_pack_mesh(&scene->pack, first + i);
-        if (!evaluate_surface(&scene->surfaces[i], mesh, level)) return false;
+        scene->surfaces[i].mesh = limn_pack_mesh(&scene->pack, first + i);
+        if (!evaluate_surface(scene, &scene->surfaces[i])) return false;
     }
     return true;
 }
 
-bool view_scene_open(view_scene *scene, const char *path, uint32_t level, long mesh_index) {
+bool view_scene_open(view_scene *scene, const char *path, const limni_frame_options *options,
+                     long mesh_index) {
     *scene = (view_scene){0};
     char error[512];
     if (!limni_blob_file_open(&scene->blob, path, error, sizeof error))
@@ -74,27 +94,30 @@ bool view_scene_open(view_scene *scene, const char *path, uint32_t level, long m
     if (result != LIMN_OK) return view_fail("%s: %s", path, limn_result_text(result));
 
     const uint32_t mesh_count = scene->pack.mesh_count;
-    if (mesh_index == VIEW_ALL_MESHES) return evaluate_meshes(scene, level, 0, mesh_count);
+    if (mesh_index == VIEW_ALL_MESHES) return evaluate_meshes(scene, *options, 0, mesh_count);
     if ((unsigned long)mesh_index >= mesh_count) {
         return view_fail("%s: there is no mesh %ld; the file has %u, counted from 0", path,
                          mesh_index, mesh_count);
     }
-    return evaluate_meshes(scene, level, (uint32_t)mesh_index, 1);
+    return evaluate_meshes(scene, *options, (uint32_t)mesh_index, 1);
 }
 
 void view_scene_close(view_scene *scene) {
     for (uint32_t i = 0; i < scene->surface_count; i++) {
         free(scene->surfaces[i].vertices);
+        free(scene->surfaces[i].plan_memory);
         view_control_mesh_free(&scene->surfaces[i].control_mesh);
     }
     free(scene->surfaces);
+    free(scene->templates.indices);
+    free(scene->templates.templates);
     limni_blob_file_close(&scene->blob);
     *scene = (view_scene){0};
 }
 
 static bool include_finest(view_framing *framing, const limn_mesh *mesh) {
     const limn_plan plan = limn_plan_uniform(mesh, LIMN_LEVEL_MAX);
-    if (!can_be_drawn(&plan)) return view_fail("mesh '%s' has too many vertices", mesh->name);
+    if (has_too_many(mesh, plan.vertex_count)) return false;
     float(*const positions)[3] = malloc(((size_t)plan.vertex_count + 1) * sizeof *positions);
     if (!positions) return view_fail("out of memory for mesh '%s'", mesh->name);
     limn_evaluate(&plan, mesh->controls, 0, plan.patch_count,

@@ -13,12 +13,21 @@
 typedef struct view_vertex {
     float position[3];
     float normal[3];
+    float level;        ///< of the patch, a real number
     uint8_t borders[4]; ///< grid steps, at most 16, from each edge of the patch; 255: no such edge
 } view_vertex;
 
-/// One mesh at one level.
+/// The index templates of a domain.
+typedef struct view_templates {
+    uint16_t *indices;
+    limn_template *templates;
+    uint32_t index_count;
+} view_templates;
+
+/// One mesh as the frame draws it.
 typedef struct view_surface {
     limn_mesh mesh;
+    void *plan_memory;
     limn_plan plan;        ///< of `mesh` above
     view_vertex *vertices; ///< [plan.vertex_count]
     view_control_mesh control_mesh;
@@ -27,15 +36,18 @@ typedef struct view_surface {
 typedef struct view_scene {
     limni_blob_file blob;
     limn_pack pack;
+    limni_frame frame;
+    view_templates templates; ///< of LIMN_DOMAIN_TRIANGLE, the only domain yet
     view_surface *surfaces;
     uint32_t surface_count;
 } view_scene;
 
 enum { VIEW_ALL_MESHES = -1 };
 
-/// Opens a file and evaluates one of its meshes, or VIEW_ALL_MESHES. Reports why and returns false
-/// on failure. The scene must stay where it is, and be closed in either case.
-bool view_scene_open(view_scene *scene, const char *path, uint32_t level, long mesh_index);
+/// Opens a file, and plans and evaluates a frame of one of its meshes, or VIEW_ALL_MESHES. Reports
+/// why and returns false on failure. The scene must stay where it is, and be closed in either case.
+bool view_scene_open(view_scene *scene, const char *path, const limni_frame_options *options,
+                     long mesh_index);
 
 void view_scene_close(view_scene *scene);
 

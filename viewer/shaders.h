@@ -26,12 +26,14 @@ static const char surface_vertex_source[] =
     "layout(location = 0) in vec3 position;\n"
     "layout(location = 1) in vec3 normal;\n"
     "layout(location = 2) in vec4 borders;\n"
+    "layout(location = 3) in float level;\n"
     "uniform mat4 view, projection;\n"
-    "out Surface { vec3 position, normal; } surface;\n" // towards the viewer is +Z
+    "out Surface { vec3 position, normal; float level; } surface;\n" // towards the viewer is +Z
     "out vec4 vertex_borders;\n"
     "void main() {\n"
     "    surface.position = (view * vec4(position, 1)).xyz;\n"
     "    surface.normal = mat3(view) * normal;\n"
+    "    surface.level = level;\n"
     "    vertex_borders = borders;\n"
     "    gl_Position = projection * vec4(surface.position, 1);\n"
     "}\n";
@@ -44,9 +46,9 @@ static const char wireframe_geometry_source[] =
     "layout(triangle_strip, max_vertices = 3) out;\n"
     "uniform vec2 viewport;\n"
     "uniform float pixel_scale;\n"
-    "in Surface { vec3 position, normal; } corners[];\n"
+    "in Surface { vec3 position, normal; float level; } corners[];\n"
     "in vec4 vertex_borders[];\n"
-    "out Surface { vec3 position, normal; } surface;\n"
+    "out Surface { vec3 position, normal; float level; } surface;\n"
     "noperspective out vec3 side_distance;\n"
     "noperspective out vec4 border_distance;\n"
     "flat out float side_strength;\n"
@@ -67,6 +69,7 @@ static const char wireframe_geometry_source[] =
     "    for (int i = 0; i < 3; i++) {\n"
     "        surface.position = corners[i].position;\n"
     "        surface.normal = corners[i].normal;\n"
+    "        surface.level = corners[i].level;\n"
     "        side_distance = vec3(0);\n"
     "        side_distance[i] = heights[i];\n"
     "        border_distance = vertex_borders[i] * step_pixels;\n"
@@ -78,11 +81,20 @@ static const char wireframe_geometry_source[] =
     "    }\n"
     "}\n";
 
-// Clay between three lamps that stand still while the camera turns.
+// Clay, or the colours of levels, between three lamps that stand still while the camera turns. The
+// colours are Okabe and Ito's, which differ for those who are colour-blind too.
 static const char surface_fragment_source[] =
-    "in Surface { vec3 position, normal; } surface;\n"
+    "in Surface { vec3 position, normal; float level; } surface;\n"
     "out vec4 color;\n"
+    "uniform float level_colours;\n"
     "const vec3 clay = vec3(0.40, 0.345, 0.295);\n"
+    "const vec3 palette[5] = vec3[5](vec3(0.000, 0.168, 0.445), vec3(0.093, 0.456, 0.815),\n"
+    "                                vec3(0.000, 0.342, 0.171), vec3(0.871, 0.776, 0.054),\n"
+    "                                vec3(0.665, 0.112, 0.000));\n"
+    "vec3 level_colour(float level) {\n"
+    "    int below = clamp(int(level), 0, 3);\n"
+    "    return 0.6 * mix(palette[below], palette[below + 1], level - float(below));\n"
+    "}\n"
     "vec3 lamp(vec3 albedo, vec3 normal, vec3 eye, vec3 direction, vec3 light, float gloss) {\n"
     "    float facing = max(dot(normal, direction), 0.0);\n"
     "    float highlight = pow(max(dot(normal, normalize(eye + direction)), 0.0), 56.0);\n"
@@ -118,7 +130,7 @@ static const char surface_fragment_source[] =
     "void main() {\n"
     "    vec3 eye = normalize(-surface.position);\n"
     "    vec3 normal = surface.normal / max(length(surface.normal), 1e-6);\n"
-    "    vec3 albedo = clay;\n"
+    "    vec3 albedo = mix(clay, level_colour(surface.level), level_colours);\n"
     "    if (!gl_FrontFacing) {\n" // the inside of an open mesh
     "        normal = -normal;\n"
     "        albedo *= vec3(0.58, 0.62, 0.70);\n"
