@@ -3,6 +3,7 @@
 #ifndef BENCH_H
 #define BENCH_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -21,6 +22,13 @@ double bench_seconds(void);
 
 /// The median; reorders the values.
 double bench_median(double *values, int count);
+
+/// Whether results can be written to `path`, known before they are measured; says so if not. NULL:
+/// none are asked for.
+bool bench_is_writable(const char *path);
+
+/// For limn_bake_desc.note: what was repaired, on standard error.
+void bench_note(void *user, const char *text);
 
 /// One line on what ran where: version, compiler, flags, CPU.
 void bench_print_conditions(FILE *stream);

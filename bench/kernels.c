@@ -598,6 +598,7 @@ int bench_kernels(int argc, char **argv) {
             return 2;
         }
     }
+    if (!bench_is_writable(s.options.csv)) return 1;
     const bool good = run(&s, argv + optind, argc - optind);
     destroy(&s);
     return good ? 0 : 1;

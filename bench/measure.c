@@ -24,6 +24,18 @@ double bench_median(double *values, int count) {
     return count % 2 ? values[count / 2] : (values[count / 2 - 1] + values[count / 2]) / 2;
 }
 
+bool bench_is_writable(const char *path) {
+    FILE *const file = path ? fopen(path, "a") : NULL;
+    if (!path || (file && fclose(file) == 0)) return true;
+    fprintf(stderr, "limn-bench: cannot write '%s'\n", path);
+    return false;
+}
+
+void bench_note(void *user, const char *text) {
+    (void)user;
+    fprintf(stderr, "limn-bench: %s\n", text);
+}
+
 void bench_cpu_name(char *name, size_t size) {
     snprintf(name, size, "%s", "");
     char line[256];

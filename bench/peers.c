@@ -279,6 +279,7 @@ int bench_peers(int argc, char **argv) {
     peers_options options = {.rounds = 15, .level = LIMN_LEVEL_MAX, .threads = count_processors()};
     const int status = read_options(argc, argv, &options);
     if (status >= 0) return status;
+    if (!bench_is_writable(options.json_path) || !bench_is_writable(options.csv_path)) return 1;
 
     bench_print_conditions(stdout);
     peer_result *const results =
