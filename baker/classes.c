@@ -288,3 +288,17 @@ limn_bake_status limni_classes_find(limni_context *context, limni_classes *class
     *key_index = *place;
     return LIMN_BAKE_OK;
 }
+
+limn_file_class limni_class_record(const limni_class *class) {
+    limn_file_class record = {
+        .control_count = class->control_count,
+        .domain = LIMN_DOMAIN_TRIANGLE,
+        .depth = LIMN_LEVEL_MAX,
+        .boundary_corners = class->boundary_corners,
+        .table_count = (uint16_t) class->table_count,
+        .pair_count = (uint16_t) class->pair_count,
+    };
+    for (int corner = 0; corner < 3; corner++)
+        record.valences[corner] = (uint16_t) class->valences[corner];
+    return record;
+}

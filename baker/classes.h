@@ -10,6 +10,7 @@
 #define LIMNI_CLASSES_H
 
 #include "classify.h"
+#include "limn/format.h"
 
 enum {
     LIMNI_SLOT_UNUSED = 0xffff, ///< of a control point without a column
@@ -38,6 +39,9 @@ typedef struct limni_class {
 static inline size_t limni_class_table_size(const limni_class *class) {
     return (size_t) class->table_count * class->control_count * class->row_stride * sizeof(float);
 }
+
+/// As it is stored, its table at the start of the tables.
+limn_file_class limni_class_record(const limni_class *class);
 
 /// A topology, and the table that it uses.
 typedef struct limni_class_key {

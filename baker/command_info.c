@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
+#include "../runtime/edge_error.h"
 #include "command.h"
 #include "limn/format.h"
 
 #include <getopt.h>
 #include <jansson.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char help[] =
@@ -15,12 +17,15 @@ static const char help[] =
     "                 file.{version,size,table_size,class_count,bake}\n"
     "                 "
     "meshes[].{name,faces,control_points,patches,patch_size,bytes_per_face,normals_size,\n"
-    "                           class_count}\n"
+    "                           class_count,edge_errors}\n"
     "                 "
     "classes[].{control_points,pairs,table_size,use_count,valences,boundary_corners}\n"
     "  -h, --help   this text\n\n"
     "Sizes are in bytes. patch_size is what a mesh stores for its patches (runs, faces, control\n"
-    "indices and slots); the tables are shared by all meshes and counted in table_size.\n"
+    "indices, slots, errors); the tables are shared by all meshes and counted in table_size.\n"
+    "edge_errors are how far levels 0 to 3 are off the limit surface around an edge, in lengths "
+    "of\n"
+    "the edge: the medians of a mesh.\n"
     "A class is one topology of a face's surroundings; its use_count is in faces, its pairs are "
     "of\n"
     "control points, if it is its own mirror image.\n";
@@ -32,6 +37,7 @@ static uint64_t table_size(const limn_file_class *class) {
 /// Bytes of the patches of a mesh: all that grows with its faces.
 static uint64_t patch_size(const limn_mesh *mesh) {
     uint64_t size = mesh->run_count * sizeof(limn_file_run) + mesh->patch_count * sizeof(uint32_t);
+    size += (uint64_t)mesh->patch_count * mesh->domain->corner_count * sizeof *mesh->errors;
     for (uint32_t r = 0; r < mesh->run_count; r++) {
         const uint32_t controls = mesh->classes[mesh->runs[r].class_index].control_count;
         const uint64_t slot_size = limn_file_slot_size(&mesh->classes[mesh->runs[r].class_index]);
@@ -46,6 +52,25 @@ static uint64_t normals_size(const limn_mesh *mesh) {
     for (uint32_t c = 0; c < mesh->control_count && mesh->normals; c++)
         size += sizeof *mesh->normals + mesh->normals[c].ring_count * sizeof *mesh->ring;
     return size;
+}
+
+static int compare_floats(const void *a, const void *b) {
+    const float left = *(const float *)a, right = *(const float *)b;
+    return (left > right) - (left < right);
+}
+
+/// By levels, over the edges of all patches; 0 where there are none, or no memory.
+static void find_medians(const limn_mesh *mesh, double medians[LIMN_LEVEL_MAX]) {
+    const size_t count = (size_t)mesh->patch_count * mesh->domain->corner_count;
+    float *const errors = malloc((count ? count : 1) * sizeof *errors);
+    memset(medians, 0, LIMN_LEVEL_MAX * sizeof *medians);
+    for (uint32_t level = 0; level < LIMN_LEVEL_MAX && errors && count; level++) {
+        for (size_t e = 0; e < count; e++)
+            errors[e] = limni_error_at(mesh->errors[e], level);
+        qsort(errors, count, sizeof *errors, compare_floats);
+        medians[level] = (double)errors[count / 2];
+    }
+    free(errors);
 }
 
 static uint64_t use_count(const limn_pack *pack, uint32_t class_index) {
@@ -103,6 +128,12 @@ static json_t *describe_mesh(const limn_mesh *mesh) {
                         json_real(mesh->patch_count ? (double)size / mesh->patch_count : 0));
     json_object_set_new(object, "normals_size", json_size(normals_size(mesh)));
     json_object_set_new(object, "class_count", json_integer(mesh->run_count));
+    double medians[LIMN_LEVEL_MAX];
+    json_t *const errors = json_array();
+    find_medians(mesh, medians);
+    for (uint32_t level = 0; level < LIMN_LEVEL_MAX; level++)
+        json_array_append_new(errors, json_real(medians[level]));
+    json_object_set_new(object, "edge_errors", errors);
     return object;
 }
 
@@ -152,6 +183,19 @@ static void print_class(const limn_pack *pack, uint32_t class_index) {
            (unsigned long long)table_size(class), (unsigned long long)use_count(pack, class_index));
 }
 
+static void print_errors(const limn_pack *pack) {
+    printf("\n%-24s %10s %10s %10s %10s\n", "mesh, median error", "level 0", "level 1", "level 2",
+           "level 3");
+    for (uint32_t m = 0; m < pack->mesh_count; m++) {
+        const limn_mesh mesh = limn_pack_mesh(pack, m);
+        double medians[LIMN_LEVEL_MAX];
+        find_medians(&mesh, medians);
+        printf("%-24s %10.2g %10.2g %10.2g %10.2g\n", mesh.name, medians[0], medians[1], medians[2],
+               medians[3]);
+    }
+    printf("(in lengths of an edge)\n");
+}
+
 static void print_text(const char *path, const limn_pack *pack) {
     printf("%s: version %u, %zu bytes, of which %llu in the tables of %u classes\n", path,
            LIMN_FORMAT_VERSION, pack->blob_size, (unsigned long long)total_table_size(pack),
@@ -166,6 +210,7 @@ static void print_text(const char *path, const limn_pack *pack) {
                mesh.control_count, (unsigned long long)size,
                mesh.patch_count ? (double)size / mesh.patch_count : 0, mesh.run_count);
     }
+    print_errors(pack);
     printf("\n%6s  %-14s %14s %10s %10s\n", "class", "valences", "control points", "bytes",
            "faces");
     for (uint32_t c = 0; c < pack->class_count; c++)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "patches.h"
 
+#include "edge_errors.h"
 #include "hash.h"
 
 #include <math.h>
@@ -249,6 +250,7 @@ limn_bake_status limni_patches_build(limni_context *context, const limni_mesh *m
     LIMNI_TRY(order_faces(context, mesh, classes, &assigned, patches));
     LIMNI_TRY(list_controls(context, classes, &assigned, &classifier, patches));
     limni_classifier_end(context, &classifier);
+    LIMNI_TRY(limni_edge_errors_build(context, mesh, classes, patches));
     if (rules->normals == LIMN_NORMALS_EXACT)
         LIMNI_TRY(limni_control_normals_build(context, mesh, rules, &patches->normals));
     limni_release(context, assigned.keys);

@@ -16,6 +16,7 @@ typedef struct limni_patches {
     uint32_t *indices; ///< [index_count]
     uint8_t *slots;
     uint64_t slots_size;           ///< in bytes
+    uint16_t *errors;              ///< [patch_count][3], see runtime/edge_error.h
     limni_control_normals normals; ///< empty without normals
 } limni_patches;
 

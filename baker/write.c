@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHUNKS_OF_FILE = 3, CHUNKS_OF_MESH = 7, CHUNKS_OF_NORMALS = 3 };
+enum { CHUNKS_OF_FILE = 3, CHUNKS_OF_MESH = 8, CHUNKS_OF_NORMALS = 3 };
 
 /// A chunk that is to be written.
 typedef struct part {
@@ -39,6 +39,7 @@ static void list_mesh(const limni_patches *mesh, uint32_t m, part *parts) {
         {LIMN_CHUNK_FACES, m, mesh->faces, record->patch_count * sizeof *mesh->faces},
         {LIMN_CHUNK_INDICES, m, mesh->indices, record->index_count * sizeof *mesh->indices},
         {LIMN_CHUNK_SLOTS, m, mesh->slots, mesh->slots_size},
+        {LIMN_CHUNK_ERRORS, m, mesh->errors, 3 * record->patch_count * sizeof *mesh->errors},
     };
     memcpy(parts, of_mesh, sizeof of_mesh);
 }
@@ -59,18 +60,9 @@ static limn_bake_status make_class_records(limni_context *context, const limni_c
     if (!*records) return LIMN_BAKE_MEMORY;
     uint64_t offset = 0;
     for (uint32_t c = 0; c < classes->count; c++) {
-        const limni_class *const class = &classes->items[c];
-        limn_file_class *const record = &(*records)[c];
-        record->table_offset = offset;
-        record->control_count = class->control_count;
-        record->domain = LIMN_DOMAIN_TRIANGLE;
-        record->depth = LIMN_LEVEL_MAX;
-        record->table_count = (uint16_t) class->table_count;
-        record->pair_count = (uint16_t) class->pair_count;
-        record->boundary_corners = class->boundary_corners;
-        for (int corner = 0; corner < 3; corner++)
-            record->valences[corner] = (uint16_t) class->valences[corner];
-        offset += limni_class_table_size(class);
+        (*records)[c] = limni_class_record(&classes->items[c]);
+        (*records)[c].table_offset = offset;
+        offset += limni_class_table_size(&classes->items[c]);
     }
     *tables_size = offset;
     return LIMN_BAKE_OK;

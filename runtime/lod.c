@@ -2,6 +2,9 @@
 /* Loops over whole blocks, without branches: what lies behind the last patch is computed as well. */
 #include "lod.h"
 
+#include "edge_error.h"
+
+#include <math.h>
 #include <string.h>
 
 /// log2 within 0.008: continuous and rising, which is all that levels need, and quicker than
@@ -41,6 +44,20 @@ static void add_view(const limn_view *view, const float a[3][LIMNI_LOD_BLOCK],
     }
 }
 
+/// levels  in: squares of projected lengths
+static void find_length_levels(const limn_lod_desc *desc, float levels[LIMNI_LOD_BLOCK]) {
+    const float scale = 1.0f / square(desc->pixels), bias = desc->bias;
+    for (int i = 0; i < LIMNI_LOD_BLOCK; i++)
+        levels[i] = 0.5f * find_log2(levels[i] * scale) + bias;
+}
+
+static void find_error_levels(const limn_lod_desc *desc, const uint16_t errors[LIMNI_LOD_BLOCK],
+                              float levels[LIMNI_LOD_BLOCK]) {
+    const float tolerance = desc->pixels, bias = desc->bias;
+    for (int i = 0; i < LIMNI_LOD_BLOCK; i++)
+        levels[i] = limni_error_level(errors[i], sqrtf(levels[i]), tolerance) + bias;
+}
+
 void limni_lod_measure(const limn_lod_desc *desc, const limn_view *views, uint32_t view_count,
                        uint32_t corner_count, const limni_lod_block *block,
                        limni_lod_levels *levels) {
@@ -52,9 +69,11 @@ void limni_lod_measure(const limn_lod_desc *desc, const limn_view *views, uint32
         const uint32_t next = e + 1 < corner_count ? e + 1 : 0;
         for (uint32_t v = 0; v < view_count; v++)
             add_view(&views[v], block->corners[e], block->corners[next], level);
-        const float scale = 1.0f / square(desc->pixels), bias = desc->bias;
-        for (int i = 0; i < LIMNI_LOD_BLOCK; i++)
-            level[i] = 0.5f * find_log2(level[i] * scale) + bias;
+        if (desc->lod == LIMN_LOD_ERROR) {
+            find_error_levels(desc, block->errors[e], level);
+        } else {
+            find_length_levels(desc, level);
+        }
     }
 }
 

@@ -70,9 +70,9 @@ static bool chunk_has_size(const limn_pack *pack, uint32_t mesh, uint32_t kind, 
 }
 
 static const uint32_t kinds_of_file[] = {LIMN_CHUNK_INFO, LIMN_CHUNK_CLASSES, LIMN_CHUNK_TABLES};
-static const uint32_t kinds_of_mesh[] = {LIMN_CHUNK_MESH, LIMN_CHUNK_NAME,  LIMN_CHUNK_CONTROLS,
-                                         LIMN_CHUNK_RUNS, LIMN_CHUNK_FACES, LIMN_CHUNK_INDICES,
-                                         LIMN_CHUNK_SLOTS};
+static const uint32_t kinds_of_mesh[] = {LIMN_CHUNK_MESH,  LIMN_CHUNK_NAME,  LIMN_CHUNK_CONTROLS,
+                                         LIMN_CHUNK_RUNS,  LIMN_CHUNK_FACES, LIMN_CHUNK_INDICES,
+                                         LIMN_CHUNK_SLOTS, LIMN_CHUNK_ERRORS};
 
 static const uint32_t kinds_of_normals[] = {LIMN_CHUNK_NORMALS, LIMN_CHUNK_RINGS,
                                             LIMN_CHUNK_WEIGHTS};
@@ -207,7 +207,10 @@ static limn_result validate_mesh_sizes(const limn_pack *pack, uint32_t m) {
         !chunk_has_size(pack, m, LIMN_CHUNK_CONTROLS, record->control_count, 3 * sizeof(float)) ||
         !chunk_has_size(pack, m, LIMN_CHUNK_RUNS, record->run_count, sizeof(limn_file_run)) ||
         !chunk_has_size(pack, m, LIMN_CHUNK_FACES, record->patch_count, sizeof(uint32_t)) ||
-        !chunk_has_size(pack, m, LIMN_CHUNK_INDICES, record->index_count, sizeof(uint32_t)))
+        !chunk_has_size(pack, m, LIMN_CHUNK_INDICES, record->index_count, sizeof(uint32_t)) ||
+        !chunk_has_size(pack, m, LIMN_CHUNK_ERRORS, record->patch_count,
+                        limn_domain_get((limn_domain_kind)record->domain)->corner_count *
+                            sizeof(uint16_t)))
         return LIMN_ERROR_MESH;
     return LIMN_OK;
 }
@@ -357,6 +360,7 @@ limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index) {
         .faces = chunk_data(pack, mesh_index, LIMN_CHUNK_FACES),
         .indices = chunk_data(pack, mesh_index, LIMN_CHUNK_INDICES),
         .slots = chunk_data(pack, mesh_index, LIMN_CHUNK_SLOTS),
+        .errors = chunk_data(pack, mesh_index, LIMN_CHUNK_ERRORS),
         .tables = chunk_data(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES),
         .runs = chunk_data(pack, mesh_index, LIMN_CHUNK_RUNS),
         .classes = pack->classes,

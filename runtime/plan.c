@@ -96,10 +96,12 @@ static bool may_be_seen(const planner *p, const uint32_t *indices, uint32_t coun
 
 // ---- Listing
 
-static inline void set_corners(const float *controls, const uint32_t *indices,
-                               uint32_t corner_count, uint32_t at, limni_lod_block *block) {
+/// errors  [corner_count]; NULL: the mesh has none
+static inline void set_edges(const float *controls, const uint32_t *indices, const uint16_t *errors,
+                             uint32_t corner_count, uint32_t at, limni_lod_block *block) {
     for (uint32_t corner = 0; corner < corner_count; corner++) {
         const float *const point = controls + 3 * (size_t)indices[corner];
+        if (errors) block->errors[corner][at] = errors[corner];
         block->corners[corner][0][at] = point[0];
         block->corners[corner][1][at] = point[1];
         block->corners[corner][2][at] = point[2];
@@ -115,6 +117,7 @@ static void measure_block(const planner *p, const limni_lod_block *block) {
 /// Lists what may be seen, and finds the levels of its edges.
 static void list_patches(planner *p) {
     const uint32_t corner_count = p->mesh->domain->corner_count;
+    const uint16_t *const errors = p->desc.lod == LIMN_LOD_ERROR ? p->mesh->errors : NULL;
     limni_lod_block block = {0};
     for (uint32_t r = 0; r < p->mesh->run_count; r++) {
         const limn_file_run *const run = &p->mesh->runs[r];
@@ -124,8 +127,8 @@ static void list_patches(planner *p) {
             const uint32_t patch = run->first_patch + i;
             if (!may_be_seen(p, indices, count)) continue;
             if (p->desc.keep_fn && !p->desc.keep_fn(p->desc.keep_user, patch)) continue;
-            set_corners(p->controls, indices, corner_count, p->patch_count % LIMNI_LOD_BLOCK,
-                        &block);
+            set_edges(p->controls, indices, errors ? errors + (size_t)patch * corner_count : NULL,
+                      corner_count, p->patch_count % LIMNI_LOD_BLOCK, &block);
             p->patches[p->patch_count++].patch = patch;
             if (p->patch_count % LIMNI_LOD_BLOCK == 0) measure_block(p, &block);
         }
@@ -265,10 +268,11 @@ limn_plan limn_plan_build(const limn_mesh *mesh, const float *controls, const li
                  .views = views,
                  .view_count = view_count,
                  .desc = desc ? *desc : (limn_lod_desc){0}};
-    if (p.desc.pixels == 0) p.desc.pixels = 8;
+    if (p.desc.pixels == 0) p.desc.pixels = p.desc.lod == LIMN_LOD_ERROR ? 1 : 8;
     if (p.desc.max_level == 0) p.desc.max_level = LIMN_LEVEL_MAX;
     LIMNI_REQUIRE(p.desc.min_level >= 0 && p.desc.max_level <= LIMN_LEVEL_MAX &&
-                      p.desc.min_level <= p.desc.max_level && p.desc.pixels > 0,
+                      p.desc.min_level <= p.desc.max_level && p.desc.pixels > 0 &&
+                      (p.desc.lod != LIMN_LOD_ERROR || mesh->errors),
                   (limn_plan){0});
     limn_draw *const draws = divide_memory(mesh, memory, &p).draws;
     mark_outside(&p);

@@ -265,9 +265,10 @@ refuses 1 'hopeless.obj: the mesh has no faces' bake -q hopeless.obj -o new.limn
 works info several.limn
 for name in torus32 sail cube; do says stdout "^$name "; done
 says stdout 'scheme=loop weights=loop boundary=edge-only'
+says stdout '^torus32  *0\.[0-9]*  *0\.[0-9]*  *0\.[0-9]*  *0\.[0-9]*$'
 works info --json several.limn
 for key in file version size table_size class_count meshes name faces control_points patches patch_size \
-    bytes_per_face classes use_count; do
+    bytes_per_face edge_errors classes use_count; do
     says stdout "^ *\"$key\": "
 done
 expect "version" "$(json version)" 3

@@ -486,6 +486,7 @@ WITHOUT(without_runs, STRIP, LIMN_CHUNK_RUNS)
 WITHOUT(without_faces, STRIP, LIMN_CHUNK_FACES)
 WITHOUT(without_indices, STRIP, LIMN_CHUNK_INDICES)
 WITHOUT(without_slots, STRIP, LIMN_CHUNK_SLOTS)
+WITHOUT(without_errors, STRIP, LIMN_CHUNK_ERRORS)
 
 static void no_chunks(const blob *file) {
     header_of(file)->chunk_count = 0;
@@ -580,6 +581,9 @@ static void mesh_runs(const blob *file) {
 }
 static void mesh_indices(const blob *file) {
     record_of(file, STRIP)->index_count = UINT64_MAX / 4 + 1;
+}
+static void mesh_errors(const blob *file) {
+    find_chunk(file, STRIP, LIMN_CHUNK_ERRORS)->size -= sizeof(uint16_t);
 }
 static void mesh_domain(const blob *file) {
     record_of(file, STRIP)->domain = LIMN_DOMAIN_COUNT;
@@ -679,6 +683,7 @@ static const damage damages[] = {
     DAMAGE(without_faces, LIMN_ERROR_CHUNK),
     DAMAGE(without_indices, LIMN_ERROR_CHUNK),
     DAMAGE(without_slots, LIMN_ERROR_CHUNK),
+    DAMAGE(without_errors, LIMN_ERROR_CHUNK),
     DAMAGE(no_chunks, LIMN_ERROR_CHUNK),
     DAMAGE(too_many_chunks, LIMN_ERROR_CHUNK),
     DAMAGE(fewer_meshes, LIMN_ERROR_CHUNK),
@@ -707,6 +712,7 @@ static const damage damages[] = {
     DAMAGE(mesh_patches, LIMN_ERROR_MESH),
     DAMAGE(mesh_runs, LIMN_ERROR_MESH),
     DAMAGE(mesh_indices, LIMN_ERROR_MESH),
+    DAMAGE(mesh_errors, LIMN_ERROR_MESH),
     DAMAGE(mesh_domain, LIMN_ERROR_MESH),
     DAMAGE(control_not_a_number, LIMN_ERROR_CONTROLS),
     DAMAGE(bounds_infinite, LIMN_ERROR_CONTROLS),

@@ -64,6 +64,8 @@ extern "C" {
     LIMN_FORMAT_KIND('I', 'N', 'D', 'X') ///< uint32_t[]: control indices of the patches
 #define LIMN_CHUNK_SLOTS                                                                           \
     LIMN_FORMAT_KIND('S', 'L', 'O', 'T') ///< uint8_t[] or uint16_t[]: slots, ascending by INDX
+#define LIMN_CHUNK_ERRORS                                                                          \
+    LIMN_FORMAT_KIND('E', 'R', 'R', 'S') ///< uint16_t[patch_count][corners]: errors of edges
 
 /// In files with normals: limn_file_normal[control_count], uint32_t[] and float[].
 #define LIMN_CHUNK_NORMALS LIMN_FORMAT_KIND('N', 'R', 'M', 'L')

@@ -237,6 +237,7 @@ typedef struct limn_mesh {
     const uint32_t *faces; ///< [patch_count]: read with limn_mesh_face()
     const uint32_t *indices;
     const uint8_t *slots;
+    const uint16_t *errors; ///< [patch_count][corner_count] of edges, see docs/format.md
     const float *tables;
     const struct limn_file_run *runs;
     const struct limn_file_class *classes;
@@ -347,20 +348,24 @@ limn_view limn_view_orthographic(const float eye[3], const float target[3], cons
 
 /// How levels are chosen. Zero means default.
 typedef enum limn_lod {
-    LIMN_LOD_LENGTH, ///< so that steps along an edge are `pixels` long on the screen
-    LIMN_LOD_UNIFORM ///< `level` everywhere
+    LIMN_LOD_LENGTH,  ///< so that steps along an edge are `pixels` long on the screen
+    LIMN_LOD_UNIFORM, ///< `level` everywhere
+    LIMN_LOD_ERROR ///< so that what is drawn is at most `pixels` off the limit surface. The baker
+                   ///< measured the bind pose; since then errors scale with the edges. What
+                   ///< would need more than LIMN_LEVEL_MAX gets that
 } limn_lod;
 
 typedef struct limn_lod_desc {
     limn_lod lod;
     float level;     ///< LIMN_LOD_UNIFORM: a real number
-    float pixels;    ///< LIMN_LOD_LENGTH: default 8
-    float bias;      ///< added to all levels
+    float pixels;    ///< on the screen, above 0: by default 8, with LIMN_LOD_ERROR 1
+    float bias;      ///< added to all levels; with LIMN_LOD_ERROR, -1 is some 4 times the tolerance
     float min_level; ///< 0 to LIMN_LEVEL_MAX
     float max_level; ///< the same; default LIMN_LEVEL_MAX
     uint64_t
         vertex_budget; ///< levels are lowered, all by the same amount, until the vertices are no
-                       ///< more, or until all are at `min_level`; 0: any number
+                       ///< more, or until all are at `min_level`; 0: any number. With
+                       ///< LIMN_LOD_ERROR this raises the tolerance
     bool no_morph;     ///< all weights are 1
     /// The caller's own test: false leaves a patch out. Called from the thread that plans.
     bool (*keep_fn)(void *user, uint32_t patch);

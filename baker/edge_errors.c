@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: MIT */
+#include "edge_errors.h"
+
+#include "../runtime/edge_error.h"
+#include "deviation.h"
+
+#include <math.h>
+
+enum { BATCH = 16, ROWS = LIMNI_ROWS_MAX };
+
+/// Of an edge as one of its patches sees it, by levels 0 to 3: model units.
+typedef struct edge_error {
+    double levels[LIMN_LEVEL_MAX];
+} edge_error;
+
+/// The larger of what happens along the edge and inside the patch.
+static edge_error combine(const limni_deviation *deviation, uint32_t edge) {
+    edge_error error;
+    for (uint32_t level = 0; level < LIMN_LEVEL_MAX; level++) {
+        const double along = deviation->edges[edge][level], inside = deviation->inside[level];
+        error.levels[level] = sqrt(along > inside ? along : inside);
+    }
+    return error;
+}
+
+/// What measuring needs. `view` shows the runtime part of a run, as a mesh of its own.
+typedef struct measurer {
+    limni_ruler ruler;
+    limn_mesh view;
+    limn_file_run part;
+    limn_file_class record;
+    float points[BATCH * ROWS][3];
+    uint32_t next_progress; ///< patches
+} measurer;
+
+static void begin_measurer(measurer *m, const limni_mesh *mesh, const limni_patches *patches) {
+    const limn_domain *const domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE);
+    limni_ruler_begin(&m->ruler, domain);
+    m->next_progress = 0;
+    m->view = (limn_mesh){.domain = domain,
+                          .controls = mesh->controls[0],
+                          .control_count = mesh->control_count,
+                          .run_count = 1,
+                          .indices = patches->indices,
+                          .slots = patches->slots,
+                          .runs = &m->part,
+                          .classes = &m->record,
+                          .kernels = limn_kernels_select(LIMN_ISA_ALL, LIMN_FAMILY_REPRODUCIBLE)};
+    memcpy(m->view.origin, patches->record.origin, sizeof m->view.origin);
+}
+
+/// faces: of the patches in view
+static void measure_view(measurer *m, const uint32_t *faces, edge_error *errors) {
+    const limn_plan plan = limn_plan_uniform(&m->view, LIMN_LEVEL_MAX);
+    limn_evaluate(&plan, m->view.controls, 0, plan.patch_count,
+                  &(limn_output){.vertices = m->points});
+    for (uint32_t p = 0; p < plan.patch_count; p++) {
+        const uint32_t face = faces[p] >> 2, rotation = faces[p] & 3;
+        limni_deviation deviation;
+        limni_deviation_measure(&m->ruler, (const float(*)[3])m->points + p * ROWS, &deviation);
+        for (uint32_t edge = 0; edge < 3; edge++)
+            errors[3 * face + (edge + rotation) % 3] = combine(&deviation, edge);
+    }
+}
+
+static void show_progress(limni_context *context, measurer *m, uint32_t done, uint32_t total) {
+    if (done < m->next_progress) return;
+    limni_progress(context, "measure", done, total);
+    m->next_progress = done + total / 200 + 1;
+}
+
+static void measure_run(limni_context *context, measurer *m, const limn_file_run *run,
+                        const limni_class *class, const limni_patches *patches,
+                        edge_error *errors) {
+    const uint64_t batch = (uint64_t)BATCH * class->control_count;
+    m->record = limni_class_record(class);
+    m->view.tables = class->table;
+    for (uint32_t begin = 0; begin < run->patch_count; begin += BATCH) {
+        const uint32_t rest = run->patch_count - begin, first = run->first_patch + begin;
+        show_progress(context, m, first, patches->record.patch_count);
+        m->part =
+            (limn_file_run){.patch_count = rest < BATCH ? rest : BATCH,
+                            .first_index = run->first_index + begin / BATCH * batch,
+                            .first_slot = run->first_slot +
+                                          begin / BATCH * batch * limn_file_slot_size(&m->record)};
+        m->view.patch_count = m->part.patch_count;
+        measure_view(m, patches->faces + first, errors);
+    }
+}
+
+static limn_bake_status measure(limni_context *context, const limni_mesh *mesh,
+                                const limni_classes *classes, const limni_patches *patches,
+                                edge_error *errors) {
+    measurer *const m = limni_allocate(context, 1, sizeof *m);
+    if (!m) return LIMN_BAKE_MEMORY;
+    begin_measurer(m, mesh, patches);
+    for (uint32_t r = 0; r < patches->record.run_count; r++) {
+        const limn_file_run *const run = &patches->runs[r];
+        measure_run(context, m, run, &classes->items[run->class_index], patches, errors);
+    }
+    limni_progress(context, "measure", mesh->face_count, mesh->face_count);
+    limni_release(context, m);
+    return LIMN_BAKE_OK;
+}
+
+// ---- Encoding
+
+/// The least code that is not below: rounding up what is behind the two bits of the mantissa may
+/// carry into the exponent, as it should.
+static uint32_t encode_first(double error) {
+    const int64_t one = (int64_t)1 << 50, lowest = (int64_t)(1023 - 20) << 2;
+    int64_t bits;
+    if (error == 0) return 0;
+    memcpy(&bits, &error, sizeof bits);
+    const int64_t code = ((bits + one - 1) >> 50) - lowest;
+    if (code < 1) return 1;
+    return code < LIMNI_ERROR_FIRST_MAX ? (uint32_t)code : LIMNI_ERROR_FIRST_MAX;
+}
+
+/// Relative to what the code before says, so that rounding up does not add up.
+static uint16_t encode(const edge_error *relative) {
+    uint32_t packed = encode_first(relative->levels[0]);
+    double error = (double)limni_error_first(packed);
+    for (uint32_t level = 0; level + 1 < LIMN_LEVEL_MAX; level++) {
+        uint32_t code = 0;
+        while (code < LIMNI_ERROR_FACTOR_COUNT - 1 &&
+               error * (double)limni_error_factors[code] < relative->levels[level + 1])
+            code++;
+        error *= (double)limni_error_factors[code];
+        packed |= code << (LIMNI_ERROR_FIRST_BITS + LIMNI_ERROR_FACTOR_BITS * level);
+    }
+    return (uint16_t)packed;
+}
+
+/// In lengths of the edge, and falling from level to level by one of the factors at least. An edge
+/// without length gets the largest error there is: its level follows from its length all the same.
+static void make_relative(double length, edge_error *error) {
+    const double largest = (double)limni_error_first(LIMNI_ERROR_FIRST_MAX);
+    const double slowest = (double)limni_error_factors[LIMNI_ERROR_FACTOR_COUNT - 1];
+    double next = 0;
+    for (uint32_t level = LIMN_LEVEL_MAX; level-- > 0;) {
+        double *const here = &error->levels[level];
+        if (*here > 0) *here = *here < largest * length ? *here / length : largest;
+        if (next > *here * slowest) *here = next / slowest;
+        next = *here;
+    }
+}
+
+static double edge_length(const limni_mesh *mesh, uint32_t h) {
+    const float *const a = mesh->controls[limni_half_edge_start(mesh, h)];
+    const float *const b = mesh->controls[limni_half_edge_end(mesh, h)];
+    double square = 0;
+    for (int axis = 0; axis < 3; axis++)
+        square += ((double)a[axis] - (double)b[axis]) * ((double)a[axis] - (double)b[axis]);
+    return sqrt(square);
+}
+
+/// Both sides of an edge get the same.
+static uint16_t encode_edge(const limni_mesh *mesh, uint32_t h, const edge_error *errors) {
+    edge_error both;
+    const uint32_t pair = mesh->pairs[h] == LIMNI_NONE ? h : mesh->pairs[h];
+    for (uint32_t level = 0; level < LIMN_LEVEL_MAX; level++) {
+        const double one = errors[h].levels[level], other = errors[pair].levels[level];
+        both.levels[level] = one > other ? one : other;
+    }
+    make_relative(edge_length(mesh, h), &both);
+    return encode(&both);
+}
+
+limn_bake_status limni_edge_errors_build(limni_context *context, const limni_mesh *mesh,
+                                         const limni_classes *classes, limni_patches *patches) {
+    const size_t count = 3 * (size_t)mesh->face_count;
+    edge_error *const errors = limni_allocate(context, count, sizeof *errors);
+    patches->errors = limni_allocate(context, count, sizeof *patches->errors);
+    if (!errors || !patches->errors) return LIMN_BAKE_MEMORY;
+    LIMNI_TRY(measure(context, mesh, classes, patches, errors));
+    for (uint32_t p = 0; p < mesh->face_count; p++) {
+        const uint32_t face = patches->faces[p] >> 2, rotation = patches->faces[p] & 3;
+        for (uint32_t edge = 0; edge < 3; edge++)
+            patches->errors[3 * p + edge] =
+                encode_edge(mesh, 3 * face + (edge + rotation) % 3, errors);
+    }
+    limni_release(context, errors);
+    return LIMN_BAKE_OK;
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * How far the surface drawn at levels 0 to 3 is from its limit around an edge, in lengths of the
+ * edge, as 16 bits. From bit 0 on: 7 bits, the error at level 0; 3 times 3 bits, the factors from
+ * each level to the next.
+ */
+#ifndef LIMNI_EDGE_ERROR_H
+#define LIMNI_EDGE_ERROR_H
+
+#include "limn/limn.h"
+
+#include <string.h>
+
+enum {
+    LIMNI_ERROR_FIRST_BITS = 7,
+    LIMNI_ERROR_FIRST_MAX = (1 << LIMNI_ERROR_FIRST_BITS) - 1,
+    LIMNI_ERROR_FACTOR_BITS = 3,
+    LIMNI_ERROR_FACTOR_COUNT = 1 << LIMNI_ERROR_FACTOR_BITS,
+};
+
+/// Of 64ths, rising; all below 1, so that errors fall with every level. A smooth surface has 1/4.
+#define LIMNI_ERROR_FACTORS(X)                                                                     \
+    { X(14), X(16), X(17), X(18), X(20), X(23), X(29), X(48) }
+#define LIMNI_ERROR_FACTOR(n) (n) / 64.0f
+#define LIMNI_ERROR_INVERSE(n) 64.0f / (n)
+#define LIMNI_ERROR_SLOPE(n) 64.0f / (64.0f - (n))
+
+static const float limni_error_factors[LIMNI_ERROR_FACTOR_COUNT] =
+    LIMNI_ERROR_FACTORS(LIMNI_ERROR_FACTOR);
+
+/// The error at level 0. Code 0 is 0; the others are (1 + (code mod 4) / 4) 2^(code / 4 - 20).
+static inline float limni_error_first(uint32_t code) {
+    const uint32_t bits = code ? (code + ((127 - 20) << 2)) << 21 : 0;
+    float first;
+    memcpy(&first, &bits, sizeof first);
+    return first;
+}
+
+/// The code of the factor from `level` to the next. What comes after level 3 is never drawn; its
+/// factor is taken to be that of the level before.
+static inline uint32_t limni_error_factor_code(uint32_t packed, uint32_t level) {
+    const uint32_t stored = level < LIMN_LEVEL_MAX - 1 ? level : LIMN_LEVEL_MAX - 2;
+    return packed >> (LIMNI_ERROR_FIRST_BITS + LIMNI_ERROR_FACTOR_BITS * stored) &
+           (LIMNI_ERROR_FACTOR_COUNT - 1);
+}
+
+/// The error at a level, 0 to LIMN_LEVEL_MAX.
+static inline float limni_error_at(uint32_t packed, uint32_t level) {
+    float error = limni_error_first(packed & LIMNI_ERROR_FIRST_MAX);
+    for (uint32_t n = 0; n < level; n++)
+        error *= limni_error_factors[limni_error_factor_code(packed, n)];
+    return error;
+}
+
+/// The level at which an edge of that length has the error `tolerance` > 0, in the same unit: 0 to
+/// LIMN_LEVEL_MAX, continuous. Between two levels the surface is a linear blend of both, and its
+/// error at most the blend of their errors.
+static inline float limni_error_level(uint32_t packed, float length, float tolerance) {
+    static const float inverses[] = LIMNI_ERROR_FACTORS(LIMNI_ERROR_INVERSE);
+    static const float slopes[] = LIMNI_ERROR_FACTORS(LIMNI_ERROR_SLOPE);
+    const float first = length * limni_error_first(packed & LIMNI_ERROR_FIRST_MAX);
+    float part = tolerance / first, sum = 0; // of the error at a level, what is allowed
+    for (uint32_t level = 0; level < LIMN_LEVEL_MAX && part < 1; level++) {
+        const uint32_t code = limni_error_factor_code(packed, level);
+        const float step = (1 - part) * slopes[code];
+        sum += step < 1 ? step : 1;
+        part *= inverses[code];
+    }
+    return sum;
+}
+
+#endif
