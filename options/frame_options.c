@@ -17,9 +17,9 @@ static const char *const names[] = {
 static const struct {
     const char *name;
     limn_lod lod;
-} modes[] = {{"length", LIMN_LOD_LENGTH}, {"uniform", LIMN_LOD_UNIFORM}};
+} modes[] = {{"length", LIMN_LOD_LENGTH}, {"error", LIMN_LOD_ERROR}, {"uniform", LIMN_LOD_UNIFORM}};
 
-static const char mode_names[] = "length or uniform";
+static const char mode_names[] = "length, error or uniform";
 
 /// The options that are numbers: where they go and what is allowed.
 static const struct {

@@ -55,8 +55,10 @@ enum limni_frame_key {
     "                          is, and near a thousandth of far\n"                                 \
     "      --cull              leave out patches that are outside of the view\n"                   \
     "      --lod MODE          length: by the projected length of edges (default);\n"              \
+    "                          error: by the projected distance from the surface;\n"               \
     "                          uniform: --level everywhere, which says the same alone\n"           \
-    "      --tolerance PX      length: pixels of a step along an edge, default 8\n"                \
+    "      --tolerance PX      length: pixels of a step along an edge, default 8;\n"               \
+    "                          error: pixels off the surface, default 1\n"                         \
     "With or without an eye:\n"                                                                    \
     "      --bias B            added to all levels, -16 to 16\n"                                   \
     "      --min-level L, --max-level L\n"                                                         \

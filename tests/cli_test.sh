@@ -413,6 +413,7 @@ faces_of() {
 works bake -q "$assets/imp.obj" -o frame.limn
 near="--eye 0.5,1.8,2 --target 0,1.6,0"
 closed 2 $near --tolerance 60
+closed 2 $near --lod error --tolerance 4
 closed 2 $near --tolerance 8 --no-morph --up 1,1,0 --fov 120 --viewport 320x240
 closed 2 $near --budget 6000 --bias 0.4 --min-level 0.5 --max-level 2.5
 works export frame.limn --level 2 --no-morph --weld -o whole.obj
@@ -476,8 +477,9 @@ wrong "--budget '4294967296': not a number of vertices" --level 1 --budget 42949
 wrong "--bias 'nan': not a number" --level 1 --bias nan
 wrong "--min-level '-1': not a level" --level 1 --min-level=-1
 wrong "--max-level '5': not a level" --level 1 --max-level 5
-wrong "--lod 'far': not length or uniform" --eye 1,2,3 --lod far
+wrong "--lod 'far': not length, error or uniform" --eye 1,2,3 --lod far
 wrong '--lod length: contradicts --level' --eye 1,2,3 --lod length --level 1
+wrong '--lod error: contradicts --level' --eye 1,2,3 --lod error --level 1
 wrong '--lod uniform: there is no --level' --eye 1,2,3 --lod uniform
 wrong '--tolerance: contradicts --level' --eye 1,2,3 --tolerance 2 --level 1
 wrong '--min-level 3: is above --max-level 2' --eye 1,2,3 --min-level 3 --max-level 2
