@@ -6,6 +6,7 @@
 const bench_lod bench_lods[] = {
     {"uniform", {.lod = LIMN_LOD_UNIFORM, .level = 2.5f}},
     {"length", {.lod = LIMN_LOD_LENGTH, .pixels = 8}},
+    {"error", {.lod = LIMN_LOD_ERROR, .pixels = 1}},
 };
 
 const uint32_t bench_lod_count = sizeof bench_lods / sizeof *bench_lods;
