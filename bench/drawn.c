@@ -56,20 +56,45 @@ void drawn_frame_destroy(drawn_frame *frame) {
 /// Grid coordinates of a vertex.
 typedef double place[2];
 
-/// The row with which row `t` of an edge is drawn: itself, or where the edge skips it, the nearest
-/// that it has, ties towards its start.
-static uint32_t kept_row(const limn_domain *domain, uint32_t edge, uint32_t edge_level,
-                         uint32_t t) {
-    const uint32_t step = LIMN_GRID_SIZE >> edge_level, behind = t % step;
-    return domain->edge_rows[edge][2 * behind <= step ? t - behind : t - behind + step];
+/// Grid steps along an edge: the parent of the lower level; of two corners, the start.
+static uint32_t elder_place(uint32_t t) {
+    const uint32_t step = t & (0u - t);
+    return (t - step) % (4 * step) == 0 ? t - step : t + step;
 }
 
-static void place_edge(const limn_domain *domain, uint32_t edge, uint32_t edge_level,
+/// Where a row that is new on its edge comes from: the middle of these two places.
+static void find_source(uint32_t level, uint32_t t, uint32_t source[2]) {
+    source[0] = elder_place(t);
+    source[1] = level > 1 ? source[0] : 2 * t - source[0];
+}
+
+/// The row with which row `t` of an edge is drawn: itself, or where the edge skips it, the nearest
+/// of its elders.
+static uint32_t kept_row(const limn_domain *domain, uint32_t edge, uint32_t edge_level,
+                         uint32_t t) {
+    while (t % (LIMN_GRID_SIZE >> edge_level))
+        t = elder_place(t);
+    return domain->edge_rows[edge][t];
+}
+
+static void place_edge(const limn_domain *domain, const limn_plan_patch *item, uint32_t edge,
                        place *places) {
-    for (uint32_t t = 0; t < LIMN_GRID_SIZE; t++) {
-        const limn_row *const kept = &domain->rows[kept_row(domain, edge, edge_level, t)];
-        double *const own = places[domain->edge_rows[edge][t]];
-        own[0] = kept->i, own[1] = kept->j;
+    const uint16_t *const along = domain->edge_rows[edge];
+    const uint32_t level = item->edge_levels[edge], step = LIMN_GRID_SIZE >> level;
+    for (uint32_t t = step; t < LIMN_GRID_SIZE && level > 0; t += 2 * step) {
+        uint32_t source[2];
+        find_source(level, t, source);
+        for (int axis = 0; axis < 2; axis++) {
+            const double from =
+                (places[along[source[0]]][axis] + places[along[source[1]]][axis]) / 2;
+            places[along[t]][axis] =
+                from + (double)item->edge_morphs[edge] * (places[along[t]][axis] - from);
+        }
+    }
+    for (uint32_t t = 1; t < LIMN_GRID_SIZE; t++) {
+        const double *const kept = places[kept_row(domain, edge, level, t)];
+        for (int axis = 0; axis < 2; axis++)
+            places[along[t]][axis] = kept[axis];
     }
 }
 
@@ -79,7 +104,7 @@ static void place_rows(const limn_domain *domain, const limn_plan_patch *item, p
     for (uint32_t r = 0; r < end; r++)
         places[r][0] = domain->rows[r].i, places[r][1] = domain->rows[r].j;
     for (uint32_t e = 0; e < domain->corner_count; e++)
-        place_edge(domain, e, item->edge_levels[e], places);
+        place_edge(domain, item, e, places);
     for (uint32_t r = begin; r < end; r++) {
         const limn_row *const row = &domain->rows[r];
         const double *const a = places[row->parents[0]], *const b = places[row->parents[1]];
@@ -202,8 +227,11 @@ static void reach_edge(const drawn_frame *frame, uint32_t patch, uint32_t edge, 
     const uint16_t *const along = domain->edge_rows[edge];
     const uint32_t level = frame->plan.patches[patch].edge_levels[edge];
     const uint32_t step = LIMN_GRID_SIZE >> level;
-    for (uint32_t t = step; t < LIMN_GRID_SIZE && level > 0; t += 2 * step)
-        reach[along[t]] = find_reach(frame, patch, along[t], along[t - step], along[t + step]);
+    for (uint32_t t = step; t < LIMN_GRID_SIZE && level > 0; t += 2 * step) {
+        uint32_t source[2];
+        find_source(level, t, source);
+        reach[along[t]] = find_reach(frame, patch, along[t], along[source[0]], along[source[1]]);
+    }
     for (uint32_t t = 1; t < LIMN_GRID_SIZE; t++) {
         const uint32_t kept = kept_row(domain, edge, level, t);
         if (kept == along[t]) continue;
@@ -238,8 +266,8 @@ drawn_motion drawn_move(const drawn_frame *before, const drawn_frame *after) {
         bool seam = false;
         for (uint32_t e = 0; e < edges; e++) {
             step = fmax(step, fabs(edge_level(new, e) - edge_level(old, e)));
-            seam |= old->edge_levels[e] != new->edge_levels[e] &&
-                    (old->edge_levels[e] < old->level || new->edge_levels[e] < new->level);
+            seam |= (old->edge_levels[e] == 0) != (new->edge_levels[e] == 0) &&
+                    (old->level > 0 && new->level > 0);
         }
         const double scale = scale_patch(after, patch);
         const double pixels = scale * move_patch(before, after, patch);

@@ -44,10 +44,10 @@ void drawn_frame_make(drawn_frame *frame, const limn_view *view, const limn_lod_
 /// How far the points of the surface move, in pixels of the second frame, whichever way they go;
 /// those of a patch as if all were at its nearest point.
 typedef struct drawn_motion {
-    double pixels;      ///< where seams stay as they are
+    double pixels;      ///< but for those
     double bound;       ///< the largest that they may then move, see drawn_move()
     double share;       ///< the largest share of its bound that a patch makes use of
-    double seam_pixels; ///< of patches of which an edge below the patch's level gains or loses one
+    double seam_pixels; ///< of patches of which an edge comes to level 0, or from there
 } drawn_motion;
 
 /// From one frame to another of the same mesh. The bound of a patch is the largest step of its

@@ -20,6 +20,6 @@ set key outside top center horizontal
 # Nothing is drawn where nothing moves.
 above(x) = x > 0.001 ? x : NaN
 plot ARG1 using 2:(above($7)) with points pt 7 ps 0.35 lc rgb "#d1495b" title "without morphing", \
-     "" using 2:(above($6)) with points pt 7 ps 0.35 lc rgb "#edae49" title "seams sewn anew", \
+     "" using 2:(above($6)) with points pt 7 ps 0.35 lc rgb "#edae49" title "to and from level 0", \
      "" using 2:5 with lines lw 1 lc rgb "#9aa5b1" title "bound of morphing", \
      "" using 2:4 with lines lw 2 lc rgb "#00798c" title "morphing"

@@ -61,11 +61,20 @@ static inline uint32_t limni_first_inside(const limn_domain *domain, uint32_t le
 /// The first level whose tangents inside are not among those of the edges.
 enum { LIMNI_INSIDE_LEVEL = 3 };
 
-/// Along an edge of that level, the place that a row at grid step `t` moves to: the nearest that
-/// the edge keeps; of two as near, the one towards the start.
+/// Along an edge, the place of the parent of the lower level of the row at grid step `t`; of two
+/// corners, the start.
+static inline uint32_t limni_elder_place(uint32_t t) {
+    const uint32_t step = t & (0u - t);
+    return (t - step) % (4 * step) == 0 ? t - step : t + step;
+}
+
+/// Along an edge of that level, the place that a row at grid step `t` is drawn at: of the rows that
+/// the edge has, the nearest of its elders. As the edge loses a level, what was drawn at a row that
+/// goes is then drawn at that row's elder, to which it has moved by then (simd/morph.h).
 static inline uint32_t limni_kept_place(uint32_t t, uint32_t edge_level) {
-    const uint32_t step = LIMN_GRID_SIZE >> edge_level, behind = t % step;
-    return 2 * behind <= step ? t - behind : t - behind + step;
+    while (t % (LIMN_GRID_SIZE >> edge_level))
+        t = limni_elder_place(t);
+    return t;
 }
 
 #endif

@@ -90,6 +90,12 @@ static void number_rows(void) {
     }
 }
 
+/// The parent of the lower level; of two corners, -1.
+static int find_elder(int a, int b) {
+    if (row_levels[a] == row_levels[b]) return -1;
+    return row_levels[a] < row_levels[b] ? a : b;
+}
+
 static void print_rows(void) {
     printf("static const limn_row rows[%d] = {\n", row_count);
     for (int row = 0; row < row_count; row++) {
@@ -103,8 +109,9 @@ static void print_rows(void) {
             a = di && dj ? row_at(p.i + di, p.j - dj) : row_at(p.i - di, p.j - dj);
             b = di && dj ? row_at(p.i - di, p.j + dj) : row_at(p.i + di, p.j + dj);
         }
-        printf("    {%d, %d, %d, %d, {%d, %d}, %d},\n", p.i, p.j, row_levels[row], edges_of(p), a,
-               b, row_at(p.j, p.i));
+        const int elder = edges_of(p) ? find_elder(a, b) : -1;
+        printf("    {%d, %d, %d, %d, {%d, %d}, {%d, %d}, %d},\n", p.i, p.j, row_levels[row],
+               edges_of(p), a, b, elder < 0 ? a : elder, elder < 0 ? b : elder, row_at(p.j, p.i));
     }
     printf("};\n\n");
 }

@@ -3,6 +3,10 @@
  * Geo-morphing (Brickhill): a row that is new at its level moves from the middle of its parents to
  * its place as the level goes up. Rows on edges follow the level of the edge, so that both sides
  * agree; sums of two parents do not depend on their order.
+ *
+ * From level 2 on, a row on an edge comes from one parent, its elder, instead of the middle of both:
+ * rows inside of a finer patch are sewn to it, and if it appeared in the middle, they would jump
+ * there from the elder. The row of level 1 has no elder that both patches could agree on.
  */
 #ifndef MORPH_H
 #define MORPH_H
@@ -12,19 +16,19 @@
 #include <string.h>
 
 /// (1 - weight) (a + b) / 2 + weight v, for each axis.
-static inline void morph_row(vectors *rows, const uint16_t parents[2], uint32_t row, float weight) {
+static inline void morph_row(vectors *rows, const uint16_t sources[2], uint32_t row, float weight) {
     for (int axis = 0; axis < 3; axis++) {
         float *const values = rows->axes[axis];
-        const float middle = (values[parents[0]] + values[parents[1]]) * 0.5f;
+        const float middle = (values[sources[0]] + values[sources[1]]) * 0.5f;
         values[row] = (1 - weight) * middle + weight * values[row];
     }
 }
 
 /// The same, and of unit length again. Written for one row: rows that are not new must keep their
 /// bits.
-static inline void morph_normal(vectors *rows, const uint16_t parents[2], uint32_t row,
+static inline void morph_normal(vectors *rows, const uint16_t sources[2], uint32_t row,
                                 float weight) {
-    morph_row(rows, parents, row, weight);
+    morph_row(rows, sources, row, weight);
     const float x = rows->axes[0][row], y = rows->axes[1][row], z = rows->axes[2][row];
     const float square = x * x + y * y + z * z, half = square * 0.5f;
     if (!(square > LEAST_SQUARE)) return; // opposite normals: any direction is as good
@@ -39,23 +43,22 @@ static inline void morph_normal(vectors *rows, const uint16_t parents[2], uint32
         rows->axes[axis][row] = rows->axes[axis][row] * root + 0.0f;
 }
 
-static inline void move_row(vectors *rows, bool normals, const uint16_t parents[2], uint32_t row,
+static inline void move_row(vectors *rows, bool normals, const uint16_t sources[2], uint32_t row,
                             float weight) {
     if (normals) {
-        morph_normal(rows, parents, row, weight);
+        morph_normal(rows, sources, row, weight);
     } else {
-        morph_row(rows, parents, row, weight);
+        morph_row(rows, sources, row, weight);
     }
 }
 
 /// The rows of an edge that is coarser than its patch: those that are new at its level move.
-static inline void morph_edge(const uint16_t *along, uint32_t edge_level, float weight,
-                              bool normals, vectors *rows) {
+static inline void morph_edge(const limn_row *of, const uint16_t *along, uint32_t edge_level,
+                              float weight, bool normals, vectors *rows) {
     const uint32_t step = LIMN_GRID_SIZE >> edge_level;
     if (edge_level == 0 || weight == 1) return;
     for (uint32_t t = step; t < LIMN_GRID_SIZE; t += 2 * step)
-        move_row(rows, normals, (const uint16_t[]){along[t - step], along[t + step]}, along[t],
-                 weight);
+        move_row(rows, normals, of[along[t]].sources, along[t], weight);
 }
 
 /// Those that it does not have, though the patch has them below its own level, go to where the
@@ -95,13 +98,13 @@ static inline bool set_weights(const limn_domain *domain, const limn_plan_patch 
     return moves;
 }
 
-/// The sums of the two parents of rows [row, end).
-static inline void add_parents(const limn_domain *domain, const vectors *rows, size_t row,
+/// The sums of the two sources of rows [row, end).
+static inline void add_sources(const limn_domain *domain, const vectors *rows, size_t row,
                                size_t end, vectors *sums) {
     const limn_row *const of = domain->rows;
     LIMNI_UNROLL_TWICE
     for (; row < end; row++) {
-        const size_t a = of[row].parents[0], b = of[row].parents[1];
+        const size_t a = of[row].sources[0], b = of[row].sources[1];
         sums->axes[0][row] = rows->axes[0][a] + rows->axes[0][b];
         sums->axes[1][row] = rows->axes[1][a] + rows->axes[1][b];
         sums->axes[2][row] = rows->axes[2][a] + rows->axes[2][b];
@@ -141,7 +144,7 @@ static inline void morph_level(const limn_domain *domain, const limn_plan_patch 
     const size_t begin = domain->row_counts[item->level - 1] / LANES_WIDTH * LANES_WIDTH;
     const size_t end = domain->row_counts[item->level];
     if (!set_weights(domain, item, begin, weights)) return;
-    add_parents(domain, rows, begin, end, &sums);
+    add_sources(domain, rows, begin, end, &sums);
     for (size_t row = begin; row < end; row += LANES_WIDTH) {
         const lanes weight = lanes_load_any(weights + row), one = lanes_splat(1.0f);
         lanes blended[3];
@@ -165,7 +168,7 @@ static inline void morph_patch(const limn_domain *domain, const limn_plan_patch 
         const uint16_t *const along = domain->edge_rows[edge];
         const uint32_t edge_level = item->edge_levels[edge];
         if (edge_level == level) continue;
-        morph_edge(along, edge_level, item->edge_morphs[edge], normals, rows);
+        morph_edge(domain->rows, along, edge_level, item->edge_morphs[edge], normals, rows);
         if (item->morph != 1) close_edge(along, edge_level, level, rows);
     }
     morph_level(domain, item, normals, rows);

@@ -295,45 +295,56 @@ static uint64_t sum_scrambled(const subject *s, const limn_plan *plan) {
 
 typedef double point[3];
 
-static bool is_new(const limn_plan_patch *item, uint32_t row, float *weight, bool *skipped) {
-    const limn_row r = domain->rows[row];
-    *skipped = false;
-    for (uint32_t e = 0; e < 3 && r.level > 0; e++) {
-        if (!(r.edges >> e & 1)) continue;
-        *weight = item->edge_morphs[e];
-        *skipped = r.level > item->edge_levels[e];
-        return r.level == item->edge_levels[e];
-    }
-    *weight = item->morph;
-    return r.level > 0 && r.level == item->level;
+static void display(const limn_plan_patch *item, const float (*finest)[FLOATS], uint32_t row,
+                    point where);
+
+/// Part `weight` of the way from the middle of two rows to a third.
+static void blend(const limn_plan_patch *item, const float (*finest)[FLOATS],
+                  const uint16_t from[2], uint32_t row, float weight, point where) {
+    point a, b;
+    display(item, finest, from[0], a);
+    display(item, finest, from[1], b);
+    for (int axis = 0; axis < 3; axis++)
+        where[axis] = (1 - (double)weight) * (a[axis] + b[axis]) / 2 +
+                      (double)weight * (double)finest[row][axis];
 }
 
-/// Where a row is displayed: a skipped one with the nearest that its edge keeps.
+/// Where a row on edge `e` is displayed that is not older than the edge's level: one that the edge
+/// skips with its elder, the parent of the lower level; and of two corners, the edge's start.
+static void display_edge(const limn_plan_patch *item, const float (*finest)[FLOATS], uint32_t e,
+                         uint32_t row, point where) {
+    const limn_row r = domain->rows[row];
+    const uint8_t levels[2] = {domain->rows[r.parents[0]].level, domain->rows[r.parents[1]].level};
+    const uint16_t elder = r.level == 1 ? (uint16_t)e : r.parents[levels[0] > levels[1]];
+    const bool skipped = r.level > item->edge_levels[e];
+    const bool from_both = r.level == 1 && !skipped;
+    blend(item, finest, from_both ? r.parents : (const uint16_t[]){elder, elder}, row,
+          skipped ? 0 : item->edge_morphs[e], where);
+}
+
+/// Where a row is displayed.
 static void display(const limn_plan_patch *item, const float (*finest)[FLOATS], uint32_t row,
                     point where) {
-    float weight;
-    bool skipped;
-    const bool moves = is_new(item, row, &weight, &skipped);
-    if (skipped) {
-        for (uint32_t e = 0; e < 3; e++) {
-            const uint32_t step = LIMN_GRID_SIZE >> item->edge_levels[e];
-            for (uint32_t t = 1; t < LIMN_GRID_SIZE; t++) {
-                if (domain->edge_rows[e][t] != row) continue;
-                const uint32_t behind = t % step;
-                const uint32_t kept = 2 * behind <= step ? t - behind : t + step - behind;
-                display(item, finest, domain->edge_rows[e][kept], where);
-            }
-        }
+    const limn_row r = domain->rows[row];
+    for (uint32_t e = 0; e < 3 && r.level > 0; e++) {
+        if (!(r.edges >> e & 1) || r.level < item->edge_levels[e]) continue;
+        display_edge(item, finest, e, row, where);
+        return;
+    }
+    if (r.level > 0 && !r.edges && r.level == item->level) {
+        blend(item, finest, r.parents, row, item->morph, where);
         return;
     }
     for (int axis = 0; axis < 3; axis++)
         where[axis] = (double)finest[row][axis];
-    if (!moves) return;
-    point a, b;
-    display(item, finest, domain->rows[row].parents[0], a);
-    display(item, finest, domain->rows[row].parents[1], b);
-    for (int axis = 0; axis < 3; axis++)
-        where[axis] = (1 - (double)weight) * (a[axis] + b[axis]) / 2 + (double)weight * where[axis];
+}
+
+static bool is_skipped(const limn_plan_patch *item, uint32_t row) {
+    const limn_row r = domain->rows[row];
+    bool skipped = false;
+    for (uint32_t e = 0; e < 3 && r.level > 0; e++)
+        skipped |= (r.edges >> e & 1) && r.level > item->edge_levels[e];
+    return skipped;
 }
 
 static void check_morphs(subject *s, const limn_plan *plan) {
@@ -350,10 +361,7 @@ static void check_morphs(subject *s, const limn_plan *plan) {
             const float *const vertex = s->vertices[item->first_vertex + row];
             point where;
             double square = 0;
-            float weight;
-            bool skipped;
-            is_new(item, row, &weight, &skipped);
-            if (skipped) continue; // not drawn
+            if (is_skipped(item, row)) continue; // not drawn
             display(item, (const float(*)[FLOATS])finest + (size_t)item->patch * 153, row, where);
             for (int axis = 0; axis < 3; axis++) {
                 furthest = fmax(furthest, fabs((double)vertex[axis] - where[axis]));

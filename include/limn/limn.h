@@ -98,7 +98,10 @@ typedef struct limn_row {
     uint8_t edges;       ///< bit e: the row lies on edge e, from corner e to corner e + 1
     uint16_t parents[2]; ///< the rows of the level before between which it appears; itself, twice,
                          ///< at level 0
-    uint16_t mirror;     ///< the row at (j, i)
+    uint16_t
+        sources[2];  ///< in whose middle it is drawn as its level begins: its parents; but on an
+                     ///< edge, from level 2 on, twice its elder, the parent of the lower level
+    uint16_t mirror; ///< the row at (j, i)
 } limn_row;
 
 /// The rows of one edge along its direction.
@@ -360,7 +363,7 @@ typedef struct limn_lod_desc {
     float level;     ///< LIMN_LOD_UNIFORM: a real number
     float pixels;    ///< on the screen, above 0: by default 8, with LIMN_LOD_ERROR 1
     float bias;      ///< added to all levels; with LIMN_LOD_ERROR, -1 is some 4 times the tolerance
-    float min_level; ///< 0 to LIMN_LEVEL_MAX
+    float min_level; ///< 0 to LIMN_LEVEL_MAX; from 1 on nothing jumps as levels change
     float max_level; ///< the same; default LIMN_LEVEL_MAX
     uint64_t
         vertex_budget; ///< levels are lowered, all by the same amount, until the vertices are no
