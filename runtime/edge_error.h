@@ -53,23 +53,44 @@ static inline float limni_error_at(uint32_t packed, uint32_t level) {
     return error;
 }
 
-/// The level at which an edge of that length has the error `tolerance` > 0, in the same unit: 0 to
-/// LIMN_LEVEL_MAX, continuous. Part f of the way from one level to the next, a row on an edge is f/2
-/// of the way from its elder to the other end, on a chord, and what is left of the error that falls
-/// is 1 - (2 f + f^2) / 3 (the curve a parabola, so that errors fall 4 times). Inside, it is 1 - f,
-/// which is less.
-static inline float limni_error_level(uint32_t packed, float length, float tolerance) {
+/// What levels follow from: the error at level 0; 1 / factor and 1 / (1 - factor) for each level and
+/// the next but the last.
+typedef struct limni_error_curve {
+    float first, inverses[LIMN_LEVEL_MAX - 1], slopes[LIMN_LEVEL_MAX - 1];
+} limni_error_curve;
+
+static inline limni_error_curve limni_error_unpack(uint32_t packed) {
     static const float inverses[] = LIMNI_ERROR_FACTORS(LIMNI_ERROR_INVERSE);
     static const float slopes[] = LIMNI_ERROR_FACTORS(LIMNI_ERROR_SLOPE);
-    const float first = length * limni_error_first(packed & LIMNI_ERROR_FIRST_MAX);
-    float part = tolerance / first, sum = 0; // of the error at a level, what is allowed
-    for (uint32_t level = 0; level < LIMN_LEVEL_MAX && part < 1; level++) {
+    limni_error_curve curve = {.first = limni_error_first(packed & LIMNI_ERROR_FIRST_MAX)};
+    for (uint32_t level = 0; level < LIMN_LEVEL_MAX - 1; level++) {
         const uint32_t code = limni_error_factor_code(packed, level);
-        const float fallen = (1 - part) * slopes[code];
-        sum += sqrtf(1 + 3 * (fallen < 1 ? fallen : 1)) - 1;
-        part *= inverses[code];
+        curve.inverses[level] = inverses[code];
+        curve.slopes[level] = slopes[code];
     }
-    return sum;
+    return curve;
+}
+
+/// Part f of the way from one level to the next, a row on an edge is f/2 of the way from its elder
+/// to the other end, on a chord, and of the error that falls, (2 f + f^2) / 3 has fallen (the curve a
+/// parabola, so that errors fall 4 times); inside it is f, which is more. Returns f between 0 and 1,
+/// for what is allowed of the error at the first level.
+static inline float limni_error_rise(float allowed, float slope) {
+    const float fallen = (1 - allowed) * slope;
+    const float above = fallen > 0 ? fallen : 0; // also where it is not a number
+    return sqrtf(1 + 3 * (above < 1 ? above : 1)) - 1;
+}
+
+/// The level at which an edge of that length has the error `tolerance` > 0, in the same unit: 0 to
+/// LIMN_LEVEL_MAX, continuous. Without branches, as it is computed for vectors of edges.
+static inline float limni_error_level(const limni_error_curve *curve, float length,
+                                      float tolerance) {
+    const float at_0 = tolerance / (length * curve->first);
+    const float at_1 = at_0 * curve->inverses[0];
+    const float at_2 = at_1 * curve->inverses[1];
+    const float at_3 = at_2 * curve->inverses[2];
+    return limni_error_rise(at_0, curve->slopes[0]) + limni_error_rise(at_1, curve->slopes[1]) +
+           limni_error_rise(at_2, curve->slopes[2]) + limni_error_rise(at_3, curve->slopes[2]);
 }
 
 #endif

@@ -51,11 +51,25 @@ static void find_length_levels(const limn_lod_desc *desc, float levels[LIMNI_LOD
         levels[i] = 0.5f * find_log2(levels[i] * scale) + bias;
 }
 
+/// Unpacked first, as tables cannot be read by vectors.
 static void find_error_levels(const limn_lod_desc *desc, const uint16_t errors[LIMNI_LOD_BLOCK],
                               float levels[LIMNI_LOD_BLOCK]) {
     const float tolerance = desc->pixels, bias = desc->bias;
-    for (int i = 0; i < LIMNI_LOD_BLOCK; i++)
-        levels[i] = limni_error_level(errors[i], sqrtf(levels[i]), tolerance) + bias;
+    float firsts[LIMNI_LOD_BLOCK], inverses[3][LIMNI_LOD_BLOCK], slopes[3][LIMNI_LOD_BLOCK];
+    for (int i = 0; i < LIMNI_LOD_BLOCK; i++) {
+        const limni_error_curve curve = limni_error_unpack(errors[i]);
+        firsts[i] = curve.first;
+        for (int s = 0; s < 3; s++) {
+            inverses[s][i] = curve.inverses[s];
+            slopes[s][i] = curve.slopes[s];
+        }
+    }
+    for (int i = 0; i < LIMNI_LOD_BLOCK; i++) {
+        const limni_error_curve curve = {firsts[i],
+                                         {inverses[0][i], inverses[1][i], inverses[2][i]},
+                                         {slopes[0][i], slopes[1][i], slopes[2][i]}};
+        levels[i] = limni_error_level(&curve, sqrtf(levels[i]), tolerance) + bias;
+    }
 }
 
 void limni_lod_measure(const limn_lod_desc *desc, const limn_view *views, uint32_t view_count,

@@ -75,36 +75,37 @@ static void mark_outside(const planner *p) {
 }
 
 /// Whether what is outside of all these planes may be seen in some view.
-static bool is_in_view(const planner *p, uint32_t outside) {
-    for (uint32_t v = 0; v < p->view_count; v++) {
-        if ((outside >> PLANES * v & ((1u << PLANES) - 1)) == 0) return true;
-    }
-    return false;
+static inline bool is_in_view(uint32_t outside, uint32_t view_count) {
+    bool seen = false;
+    for (uint32_t v = 0; v < view_count; v++)
+        seen |= (outside >> PLANES * v & ((1u << PLANES) - 1)) == 0;
+    return seen;
 }
 
 /// The corners come first, and most often decide.
-static bool may_be_seen(const planner *p, const uint32_t *indices, uint32_t count) {
-    const uint32_t corner_count = p->mesh->domain->corner_count;
+static inline bool may_be_seen(const planner *p, const uint32_t *indices, uint32_t corner_count,
+                               uint32_t count) {
+    const uint32_t *const of = p->outside;
     uint32_t outside = UINT32_MAX;
     for (uint32_t k = 0; k < corner_count; k++)
-        outside &= p->outside[indices[k]];
-    if (is_in_view(p, outside)) return true;
+        outside &= of[indices[k]];
+    if (is_in_view(outside, p->view_count)) return true;
     for (uint32_t k = corner_count; k < count; k++)
-        outside &= p->outside[indices[k]];
-    return is_in_view(p, outside);
+        outside &= of[indices[k]];
+    return is_in_view(outside, p->view_count);
 }
 
 // ---- Listing
 
-/// errors  [corner_count]; NULL: the mesh has none
+/// errors  [corner_count]; NULL: levels do not ask for them
 static inline void set_edges(const float *controls, const uint32_t *indices, const uint16_t *errors,
                              uint32_t corner_count, uint32_t at, limni_lod_block *block) {
     for (uint32_t corner = 0; corner < corner_count; corner++) {
         const float *const point = controls + 3 * (size_t)indices[corner];
-        if (errors) block->errors[corner][at] = errors[corner];
         block->corners[corner][0][at] = point[0];
         block->corners[corner][1][at] = point[1];
         block->corners[corner][2][at] = point[2];
+        if (errors) block->errors[corner][at] = errors[corner];
     }
 }
 
@@ -114,23 +115,34 @@ static void measure_block(const planner *p, const limni_lod_block *block) {
                       &p->levels[last / LIMNI_LOD_BLOCK]);
 }
 
+/// Lists what may be seen of one run.
+static inline void list_run(planner *p, const limn_file_run *run, uint32_t corner_count,
+                            limni_lod_block *block) {
+    const limn_mesh *const mesh = p->mesh;
+    const float *const controls = p->controls;
+    const uint16_t *const errors = p->desc.lod == LIMN_LOD_ERROR ? mesh->errors : NULL;
+    const uint32_t count = mesh->classes[run->class_index].control_count;
+    const uint32_t *indices = mesh->indices + run->first_index;
+    for (uint32_t i = 0; i < run->patch_count; i++, indices += count) {
+        const uint32_t patch = run->first_patch + i, at = p->patch_count % LIMNI_LOD_BLOCK;
+        if (!may_be_seen(p, indices, corner_count, count)) continue;
+        if (p->desc.keep_fn && !p->desc.keep_fn(p->desc.keep_user, patch)) continue;
+        set_edges(controls, indices, errors ? errors + (size_t)patch * corner_count : NULL,
+                  corner_count, at, block);
+        p->patches[p->patch_count++].patch = patch;
+        if (at == LIMNI_LOD_BLOCK - 1) measure_block(p, block);
+    }
+}
+
 /// Lists what may be seen, and finds the levels of its edges.
 static void list_patches(planner *p) {
     const uint32_t corner_count = p->mesh->domain->corner_count;
-    const uint16_t *const errors = p->desc.lod == LIMN_LOD_ERROR ? p->mesh->errors : NULL;
     limni_lod_block block = {0};
     for (uint32_t r = 0; r < p->mesh->run_count; r++) {
-        const limn_file_run *const run = &p->mesh->runs[r];
-        const uint32_t count = p->mesh->classes[run->class_index].control_count;
-        const uint32_t *indices = p->mesh->indices + run->first_index;
-        for (uint32_t i = 0; i < run->patch_count; i++, indices += count) {
-            const uint32_t patch = run->first_patch + i;
-            if (!may_be_seen(p, indices, count)) continue;
-            if (p->desc.keep_fn && !p->desc.keep_fn(p->desc.keep_user, patch)) continue;
-            set_edges(p->controls, indices, errors ? errors + (size_t)patch * corner_count : NULL,
-                      corner_count, p->patch_count % LIMNI_LOD_BLOCK, &block);
-            p->patches[p->patch_count++].patch = patch;
-            if (p->patch_count % LIMNI_LOD_BLOCK == 0) measure_block(p, &block);
+        if (corner_count == 3) { // for the compiler
+            list_run(p, &p->mesh->runs[r], 3, &block);
+        } else {
+            list_run(p, &p->mesh->runs[r], corner_count, &block);
         }
     }
     if (p->patch_count % LIMNI_LOD_BLOCK) measure_block(p, &block);
