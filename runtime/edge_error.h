@@ -71,26 +71,30 @@ static inline limni_error_curve limni_error_unpack(uint32_t packed) {
     return curve;
 }
 
-/// Part f of the way from one level to the next, a row on an edge is f/2 of the way from its elder
-/// to the other end, on a chord, and of the error that falls, (2 f + f^2) / 3 has fallen (the curve a
-/// parabola, so that errors fall 4 times); inside it is f, which is more. Returns f between 0 and 1,
-/// for what is allowed of the error at the first level.
-static inline float limni_error_rise(float allowed, float slope) {
+/// Of the error that falls from one level to the next, the part that must have fallen, 0 to 1.
+static inline float limni_error_fallen(float allowed, float slope) {
     const float fallen = (1 - allowed) * slope;
     const float above = fallen > 0 ? fallen : 0; // also where it is not a number
-    return sqrtf(1 + 3 * (above < 1 ? above : 1)) - 1;
+    return above < 1 ? above : 1;
 }
 
 /// The level at which an edge of that length has the error `tolerance` > 0, in the same unit: 0 to
 /// LIMN_LEVEL_MAX, continuous. Without branches, as it is computed for vectors of edges.
+///
+/// Part f of the way from one level to the next, a row on an edge is f/2 of the way from its elder
+/// to the other end, on a chord, and of the error that falls, (2 f + f^2) / 3 has fallen (the curve a
+/// parabola, so that errors fall 4 times); inside it is f, which is more.
 static inline float limni_error_level(const limni_error_curve *curve, float length,
                                       float tolerance) {
     const float at_0 = tolerance / (length * curve->first);
     const float at_1 = at_0 * curve->inverses[0];
     const float at_2 = at_1 * curve->inverses[1];
     const float at_3 = at_2 * curve->inverses[2];
-    return limni_error_rise(at_0, curve->slopes[0]) + limni_error_rise(at_1, curve->slopes[1]) +
-           limni_error_rise(at_2, curve->slopes[2]) + limni_error_rise(at_3, curve->slopes[2]);
+    const float fallen =
+        limni_error_fallen(at_0, curve->slopes[0]) + limni_error_fallen(at_1, curve->slopes[1]) +
+        limni_error_fallen(at_2, curve->slopes[2]) + limni_error_fallen(at_3, curve->slopes[2]);
+    const float whole = (float)(int32_t)fallen;
+    return whole + sqrtf(1 + 3 * (fallen - whole)) - 1;
 }
 
 #endif

@@ -273,7 +273,7 @@ static void check_sides(const subject *s) {
 
 // ---- What the numbers say
 
-static float level_for(uint32_t packed, float length, float tolerance) {
+static float packed_level(uint32_t packed, float length, float tolerance) {
     const limni_error_curve curve = limni_error_unpack(packed);
     return limni_error_level(&curve, length, tolerance);
 }
@@ -286,7 +286,7 @@ static void check_number(uint16_t packed) {
     float last = LIMN_LEVEL_MAX;
     for (double part = 1.0 / 1024; part <= 2; part *= 1.0625) {
         const double tolerance = errors[0] * part;
-        const float level = level_for(packed, 1, (float)tolerance);
+        const float level = packed_level(packed, 1, (float)tolerance);
         CHECK(level >= 0 && level <= last && last - level < 0.35f);
         last = level;
         if (level == 0 || level == LIMN_LEVEL_MAX) continue;
@@ -305,12 +305,12 @@ static void test_numbers(void) {
     }
     CHECK(limni_error_first(1) == 1.25f / (1 << 20) && limni_error_first(127) == 1.75f * 2048);
     const uint32_t largest = LIMNI_ERROR_FIRST_MAX;
-    CHECK(level_for(0, 1, 1e-30f) == 0); // flat
-    CHECK(level_for(0, INFINITY, 1) == 0);
-    CHECK(level_for(0, 0, 1) == 0);
-    CHECK(level_for(largest, 0, 1e-30f) == 0); // without length
-    CHECK(level_for(largest, INFINITY, 1) == LIMN_LEVEL_MAX);
-    CHECK(level_for(largest, NAN, 1) == 0);
+    CHECK(packed_level(0, 1, 1e-30f) == 0); // flat
+    CHECK(packed_level(0, INFINITY, 1) == 0);
+    CHECK(packed_level(0, 0, 1) == 0);
+    CHECK(packed_level(largest, 0, 1e-30f) == 0); // without length
+    CHECK(packed_level(largest, INFINITY, 1) == LIMN_LEVEL_MAX);
+    CHECK(packed_level(largest, NAN, 1) == 0);
 }
 
 /// Two faces across an edge without length, and flat ones: every number is one that levels follow
@@ -474,7 +474,7 @@ static void draw(subject *s, const limn_view *view, const limn_lod_desc *desc) {
                   &(limn_output){.vertices = s->vertices});
 }
 
-static float level_for(const limn_plan_patch *item) {
+static float level_of(const limn_plan_patch *item) {
     return item->level ? (float)(item->level - 1) + item->morph : 0;
 }
 
@@ -499,7 +499,7 @@ static void choose(const subject *s, chosen *some, tally *sum) {
         const limn_plan_patch *const item = &s->plan.patches[i];
         sum->limited += is_limited(item);
         if (is_limited(item)) continue;
-        some->levels[some->count] = level_for(item);
+        some->levels[some->count] = level_of(item);
         some->failed[some->count] = false;
         some->patches[some->count++] = item->patch;
     }
