@@ -51,6 +51,43 @@ static char *copy_name(limni_context *context, const char *name) {
     return copy;
 }
 
+/// The options, and what they leave to the mesh. It is edge-only in the end, or edge-and-corner.
+static limni_rules rules_for(limni_context *context, const limni_rules *options,
+                             const limni_mesh *mesh) {
+    limni_rules rules = *options;
+    if (rules.boundary == LIMN_BOUNDARY_DEFAULT) rules.boundary = mesh->boundary;
+    if (rules.boundary == LIMN_BOUNDARY_NONE)
+        limni_note(context,
+                   "%s: without boundary interpolation, as asked for, is not supported "
+                   "yet: baked as edge-only",
+                   mesh->path ? mesh->path : mesh->name);
+    if (rules.boundary != LIMN_BOUNDARY_EDGE_AND_CORNER) rules.boundary = LIMN_BOUNDARY_EDGE_ONLY;
+    return rules;
+}
+
+static void release_source(limni_context *context, const limni_source *source) {
+    limni_release(context, source->position_numbers);
+    limni_release(context, source->position_lines);
+    limni_release(context, source->face_offsets);
+    limni_release(context, source->face_corners);
+    limni_release(context, source->face_numbers);
+    limni_release(context, source->face_lines);
+    limni_release(context, source->tags.creases);
+    limni_release(context, source->tags.sharp_vertices);
+    limni_release(context, source->tags.holes);
+}
+
+static void release_mesh(limni_context *context, const limni_mesh *mesh) {
+    limni_release(context, mesh->faces);
+    limni_release(context, mesh->polygons);
+    limni_release(context, mesh->pairs);
+    limni_release(context, mesh->first);
+    limni_release(context, mesh->valences);
+    limni_release(context, mesh->edge_sharpness);
+    limni_release(context, mesh->vertex_sharpness);
+    limni_release(context, mesh->holes);
+}
+
 static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     limni_context *const context = &baker->context;
     source->name = copy_name(context, source->name ? source->name : "mesh");
@@ -65,20 +102,12 @@ static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     baker->blob = NULL;
     limni_mesh mesh;
     LIMNI_TRY(limni_mesh_build(context, source, &mesh));
-    LIMNI_TRY(limni_patches_build(context, &mesh, &baker->rules, &baker->classes,
+    const limni_rules rules = rules_for(context, &baker->rules, &mesh);
+    LIMNI_TRY(limni_patches_build(context, &mesh, &rules, &baker->classes,
                                   &baker->meshes[baker->mesh_count]));
     baker->mesh_count++;
-    limni_release(context, source->position_numbers);
-    limni_release(context, source->position_lines);
-    limni_release(context, source->face_offsets);
-    limni_release(context, source->face_corners);
-    limni_release(context, source->face_numbers);
-    limni_release(context, source->face_lines);
-    limni_release(context, mesh.faces);
-    limni_release(context, mesh.polygons);
-    limni_release(context, mesh.pairs);
-    limni_release(context, mesh.first);
-    limni_release(context, mesh.valences);
+    release_source(context, source);
+    release_mesh(context, &mesh);
     return LIMN_BAKE_OK;
 }
 
@@ -125,6 +154,46 @@ static limn_bake_status check_mesh(limni_context *context, const limn_bake_mesh 
     return LIMN_BAKE_OK;
 }
 
+static limn_bake_status check_sharpness(limni_context *context, const limn_bake_mesh *mesh,
+                                        const char *what, const float *values, uint32_t count) {
+    for (uint32_t v = 0; v < count; v++) {
+        if (!(values[v] >= 0))
+            return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                              "%s: the sharpness of %s %u is negative or not a number",
+                              mesh->name ? mesh->name : "mesh", what, v);
+    }
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status copy_tags(limni_context *context, const limn_bake_mesh *mesh,
+                                  limni_tags *tags) {
+    LIMNI_TRY(check_sharpness(context, mesh, "crease", mesh->crease_sharpness, mesh->crease_count));
+    LIMNI_TRY(check_sharpness(context, mesh, "sharp vertex", mesh->vertex_sharpness,
+                              mesh->sharp_vertex_count));
+    *tags = (limni_tags){
+        .creases = limni_allocate(context, mesh->crease_count, sizeof *tags->creases),
+        .sharp_vertices =
+            limni_allocate(context, mesh->sharp_vertex_count, sizeof *tags->sharp_vertices),
+        .holes = limni_allocate(context, mesh->hole_count, sizeof *tags->holes),
+        .crease_count = mesh->crease_count,
+        .sharp_vertex_count = mesh->sharp_vertex_count,
+        .hole_count = mesh->hole_count,
+        .boundary = mesh->boundary,
+        .creasing = mesh->creasing,
+    };
+    if (!tags->creases || !tags->sharp_vertices || !tags->holes) return LIMN_BAKE_MEMORY;
+    for (uint32_t c = 0; c < mesh->crease_count; c++)
+        tags->creases[c] =
+            (limni_crease){mesh->crease_edges[2 * (size_t)c], mesh->crease_edges[2 * (size_t)c + 1],
+                           mesh->crease_sharpness[c], 0};
+    for (uint32_t v = 0; v < mesh->sharp_vertex_count; v++)
+        tags->sharp_vertices[v] =
+            (limni_sharp_vertex){mesh->sharp_vertices[v], mesh->vertex_sharpness[v], 0};
+    for (uint32_t h = 0; h < mesh->hole_count; h++)
+        tags->holes[h] = (limni_hole){mesh->holes[h], 0};
+    return LIMN_BAKE_OK;
+}
+
 static limn_bake_status add_mesh(limn_baker *baker, const limn_bake_mesh *mesh) {
     limni_context *const context = &baker->context;
     uint64_t corner_count = 0;
@@ -145,6 +214,7 @@ static limn_bake_status add_mesh(limn_baker *baker, const limn_bake_mesh *mesh) 
     for (uint32_t face = 0; face < mesh->face_count; face++)
         source.face_offsets[face + 1] =
             source.face_offsets[face] + (mesh->face_sizes ? mesh->face_sizes[face] : 3);
+    LIMNI_TRY(copy_tags(context, mesh, &source.tags));
     return add_source(baker, &source);
 }
 

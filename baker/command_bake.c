@@ -17,8 +17,9 @@ static const char help[] =
     "well.\n\n"
     "  -o, --output FILE     the file to write\n"
     "      --weights NAME    vertex weights: loop (default) or warren\n"
-    "      --boundary NAME   edge-only (default): boundaries are smooth curves;\n"
-    "                        edge-and-corner: boundary vertices of a single face stay in place\n"
+    "      --boundary NAME   edge-only: boundaries are smooth curves; edge-and-corner: boundary\n"
+    "                        vertices of a single face stay in place. Default: what the mesh asks\n"
+    "                        for (t interpolateboundary in OBJ), otherwise edge-only\n"
     "      --normals NAME    none (default), or exact: store tangents of the limit surface\n"
     "      --repair[=STEPS]  mend what would be refused, and say so; STEPS of, separated by "
     "commas:\n"
@@ -97,7 +98,8 @@ static int parse_option(int option, arguments *given) {
     case OPTION_BOUNDARY:
         choice = choose(optarg, "edge-only", "edge-and-corner");
         if (choice < 0) return limni_usage_error("bake", "there is no boundary rule '%s'", optarg);
-        given->desc.boundary = (limn_boundary)choice;
+        given->desc.boundary =
+            choice == 0 ? LIMN_BOUNDARY_EDGE_ONLY : LIMN_BOUNDARY_EDGE_AND_CORNER;
         return LIMNI_EXIT_OK;
     case OPTION_NORMALS:
         choice = choose(optarg, "none", "exact");

@@ -120,7 +120,7 @@ static json_t *describe_mesh(const limn_mesh *mesh) {
     json_t *const object = json_object();
     const uint64_t size = patch_size(mesh);
     json_object_set_new(object, "name", json_text(mesh->name));
-    json_object_set_new(object, "faces", json_integer(mesh->patch_count));
+    json_object_set_new(object, "faces", json_integer(mesh->face_count));
     json_object_set_new(object, "control_points", json_integer(mesh->control_count));
     json_object_set_new(object, "patches", json_integer(mesh->patch_count));
     json_object_set_new(object, "patch_size", json_size(size));
@@ -206,7 +206,7 @@ static void print_text(const char *path, const limn_pack *pack) {
     for (uint32_t m = 0; m < pack->mesh_count; m++) {
         const limn_mesh mesh = limn_pack_mesh(pack, m);
         const uint64_t size = patch_size(&mesh);
-        printf("%-24s %10u %10u %12llu %10.1f %8u\n", mesh.name, mesh.patch_count,
+        printf("%-24s %10u %10u %12llu %10.1f %8u\n", mesh.name, mesh.face_count,
                mesh.control_count, (unsigned long long)size,
                mesh.patch_count ? (double)size / mesh.patch_count : 0, mesh.run_count);
     }

@@ -11,7 +11,7 @@
 
 static limn_bake_status check_same(limni_context *context, const limn_mesh *mesh,
                                    const limni_mesh *source) {
-    if (mesh->control_count != source->control_count || mesh->patch_count != source->face_count ||
+    if (mesh->control_count != source->control_count || mesh->face_count != source->face_count ||
         memcmp(mesh->controls, source->controls,
                source->control_count * sizeof *source->controls) != 0)
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
@@ -40,8 +40,9 @@ static limn_bake_status oracle(limni_context *context, const limn_pack *pack,
         .faces = source->faces[0],
         .position_count = source->control_count,
         .face_count = source->face_count,
-        .boundary = strcmp(boundary, "edge-and-corner") == 0 ? LIMN_BOUNDARY_EDGE_AND_CORNER
-                                                             : LIMN_BOUNDARY_EDGE_ONLY,
+        .boundary = strcmp(boundary, "mixed") == 0             ? source->boundary
+                    : strcmp(boundary, "edge-and-corner") == 0 ? LIMN_BOUNDARY_EDGE_AND_CORNER
+                                                               : LIMN_BOUNDARY_EDGE_ONLY,
         .level = LIMN_LEVEL_MAX,
     };
     const uint32_t row_count = limn_domain_get(LIMN_DOMAIN_TRIANGLE)->row_counts[LIMN_LEVEL_MAX];

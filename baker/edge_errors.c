@@ -98,7 +98,7 @@ static limn_bake_status measure(limni_context *context, const limni_mesh *mesh,
         const limn_file_run *const run = &patches->runs[r];
         measure_run(context, m, run, &classes->items[run->class_index], patches, errors);
     }
-    limni_progress(context, "measure", mesh->face_count, mesh->face_count);
+    limni_progress(context, "measure", patches->record.patch_count, patches->record.patch_count);
     limni_release(context, m);
     return LIMN_BAKE_OK;
 }
@@ -155,7 +155,7 @@ static double edge_length(const limni_mesh *mesh, uint32_t h) {
     return sqrt(square);
 }
 
-/// Both sides of an edge get the same.
+/// Both sides of an edge get the same. What happens in a hole does not show.
 static uint16_t encode_edge(const limni_mesh *mesh, uint32_t h, const edge_error *errors) {
     edge_error both;
     const uint32_t pair = mesh->pairs[h] == LIMNI_NONE ? h : mesh->pairs[h];
@@ -170,11 +170,12 @@ static uint16_t encode_edge(const limni_mesh *mesh, uint32_t h, const edge_error
 limn_bake_status limni_edge_errors_build(limni_context *context, const limni_mesh *mesh,
                                          const limni_classes *classes, limni_patches *patches) {
     const size_t count = 3 * (size_t)mesh->face_count;
-    edge_error *const errors = limni_allocate(context, count, sizeof *errors);
-    patches->errors = limni_allocate(context, count, sizeof *patches->errors);
+    const uint32_t patch_count = patches->record.patch_count;
+    edge_error *const errors = limni_allocate_zeroed(context, count, sizeof *errors);
+    patches->errors = limni_allocate(context, 3 * (size_t)patch_count, sizeof *patches->errors);
     if (!errors || !patches->errors) return LIMN_BAKE_MEMORY;
     LIMNI_TRY(measure(context, mesh, classes, patches, errors));
-    for (uint32_t p = 0; p < mesh->face_count; p++) {
+    for (uint32_t p = 0; p < patch_count; p++) {
         const uint32_t face = patches->faces[p] >> 2, rotation = patches->faces[p] & 3;
         for (uint32_t edge = 0; edge < 3; edge++)
             patches->errors[3 * p + edge] =

@@ -37,8 +37,21 @@ static uint64_t position_hash(const float position[3]) {
     return limni_hash_mix(limni_hash_mix(bits[0], bits[1]), bits[2]);
 }
 
+/// Faces and tags follow the control points that they name.
+static void follow(limni_source *source, const uint32_t *moved) {
+    limni_tags *const tags = &source->tags;
+    for (uint32_t c = 0; c < source->face_offsets[source->face_count]; c++)
+        source->face_corners[c] = moved[source->face_corners[c]];
+    for (uint32_t c = 0; c < tags->crease_count; c++) {
+        tags->creases[c].a = moved[tags->creases[c].a];
+        tags->creases[c].b = moved[tags->creases[c].b];
+    }
+    for (uint32_t v = 0; v < tags->sharp_vertex_count; v++)
+        tags->sharp_vertices[v].position = moved[tags->sharp_vertices[v].position];
+}
+
 /// Merges control points with equal positions into the first of them. Numbers, and with them the
-/// lines, move up; faces follow.
+/// lines, move up.
 limn_bake_status limni_weld(limni_context *context, limni_source *source) {
     const uint32_t count = source->position_count;
     const uint32_t size = limni_hash_size(count);
@@ -66,8 +79,7 @@ limn_bake_status limni_weld(limni_context *context, limni_source *source) {
         }
         moved[p] = table[at];
     }
-    for (uint32_t c = 0; c < source->face_offsets[source->face_count]; c++)
-        source->face_corners[c] = moved[source->face_corners[c]];
+    follow(source, moved);
     if (kept < count)
         limni_note(context, "%s: repaired: %u control points welded into others", file_of(source),
                    count - kept);

@@ -12,6 +12,11 @@ static inline uint64_t limni_hash_mix(uint64_t hash, uint64_t value) {
     return hash ^ hash >> 32;
 }
 
+/// An edge, whatever its direction. 0 only if both ends are control point 0.
+static inline uint64_t limni_edge_key(uint32_t a, uint32_t b) {
+    return a < b ? (uint64_t)b << 32 | a : (uint64_t)a << 32 | b;
+}
+
 /// A power of two, at least twice `count`, for `count` up to 2^30.
 static inline uint32_t limni_hash_size(uint32_t count) {
     uint32_t size = 16;

@@ -32,6 +32,16 @@ typedef struct limni_mesh {
     uint32_t *first;    ///< [control_count] a half-edge that starts here, or LIMNI_NONE if unused;
                         ///< on a boundary the clockwise-most one
     uint32_t *valences; ///< [control_count] edges
+    float
+        *edge_sharpness; ///< [3 * face_count] by half-edge, the same for both of a pair; 0: smooth;
+                         ///< from LIMNI_SHARP_FOR_EVER on, infinity included, it does not fall.
+                         ///< Diagonals of polygons are smooth. Boundaries count as boundaries
+                         ///< alone, and have 0 too unless a tag names them
+    float *vertex_sharpness; ///< [control_count] likewise
+    bool *holes; ///< [face_count] triangles that shape the surface around them but are not drawn
+    uint32_t hole_count;
+    limn_boundary boundary; ///< asked for by the mesh; LIMN_BOUNDARY_DEFAULT: it says nothing
+    limn_creasing creasing; ///< likewise
 } limni_mesh;
 
 static inline uint32_t limni_half_edge_next(uint32_t h) {
@@ -62,10 +72,13 @@ const char *limni_control_place(const limni_mesh *mesh, uint32_t control, limni_
 
 /// The steps from a source to a mesh, in this order. Each fails with LIMN_BAKE_BAD_INPUT on what it
 /// cannot take, unless context->desc.repair allows it to mend it.
+limn_bake_status limni_check_tags(limni_context *context, limni_source *source);
 limn_bake_status limni_weld(limni_context *context, limni_source *source);
 limn_bake_status limni_check_faces(limni_context *context, limni_source *source);
 limn_bake_status limni_triangulate(limni_context *context, const limni_source *source,
                                    limni_mesh *mesh);
+limn_bake_status limni_tag_mesh(limni_context *context, const limni_source *source,
+                                limni_mesh *mesh);
 limn_bake_status limni_connect(limni_context *context, limni_mesh *mesh);
 
 /// All of them.

@@ -10,7 +10,7 @@
 
 /// What is known of each face after the first pass.
 typedef struct assignment {
-    uint32_t *keys;      ///< [face_count] indices of class keys
+    uint32_t *keys;      ///< [face_count] indices of class keys; holes have none
     uint32_t *rotations; ///< [face_count]
 } assignment;
 
@@ -28,6 +28,7 @@ static limn_bake_status assign_classes(limni_context *context, const limni_mesh 
     const uint32_t step = mesh->face_count / 200 + 1;
     for (uint32_t face = 0; face < mesh->face_count; face++) {
         if (face % step == 0) limni_progress(context, "classify", face, mesh->face_count);
+        if (mesh->holes[face]) continue;
         const limni_local_base *const base = limni_classify(context, classifier, face);
         if (!base) return LIMN_BAKE_BAD_INPUT;
         LIMNI_TRY(limni_classes_find(context, classes, rules, base, &assigned->keys[face]));
@@ -68,8 +69,9 @@ static limn_bake_status make_runs(limni_context *context, const limni_mesh *mesh
                                   limni_patches *patches) {
     uint32_t *const counts = limni_allocate_zeroed(context, classes->count, sizeof *counts);
     if (!counts) return LIMN_BAKE_MEMORY;
-    for (uint32_t face = 0; face < mesh->face_count; face++)
-        counts[class_of(classes, assigned, face)]++;
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        if (!mesh->holes[face]) counts[class_of(classes, assigned, face)]++;
+    }
     for (uint32_t c = 0; c < classes->count; c++)
         patches->record.run_count += counts[c] != 0;
     patches->runs =
@@ -85,13 +87,15 @@ static limn_bake_status order_faces(limni_context *context, const limni_mesh *me
                                     const limni_classes *classes, const assignment *assigned,
                                     limni_patches *patches) {
     uint32_t *const next = limni_allocate(context, classes->count, sizeof *next);
-    patches->faces = limni_allocate(context, mesh->face_count, sizeof *patches->faces);
+    patches->faces = limni_allocate(context, patches->record.patch_count, sizeof *patches->faces);
     if (!next || !patches->faces) return LIMN_BAKE_MEMORY;
     for (uint32_t r = 0; r < patches->record.run_count; r++)
         next[patches->runs[r].class_index] = patches->runs[r].first_patch;
-    for (uint32_t face = 0; face < mesh->face_count; face++)
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        if (mesh->holes[face]) continue;
         patches->faces[next[class_of(classes, assigned, face)]++] =
             face << 2 | assigned->rotations[face];
+    }
     limni_release(context, next);
     return LIMN_BAKE_OK;
 }
@@ -179,6 +183,25 @@ static uint64_t sum_edge(const limni_classes *classes, const limni_class_key *ke
     return sum;
 }
 
+/// Whether there is no patch on one side of a half-edge.
+static bool is_open(const limni_mesh *mesh, uint32_t h) {
+    return mesh->pairs[h] == LIMNI_NONE || mesh->holes[h / 3] || mesh->holes[mesh->pairs[h] / 3];
+}
+
+static void sum_edges(const limni_mesh *mesh, const limni_classes *classes,
+                      const assignment *assigned, limni_classifier *classifier, uint64_t *sums) {
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        if (mesh->holes[face]) continue;
+        const uint32_t rotation = assigned->rotations[face];
+        const limni_local_base *const base = limni_local_base_at(classifier, face, rotation);
+        for (uint32_t h = 3 * face; h < 3 * face + 3; h++) {
+            const uint32_t edge = (h % 3 + 3 - rotation) % 3;
+            const bool along = mesh->pairs[h] == LIMNI_NONE || h < mesh->pairs[h];
+            sums[h] = sum_edge(classes, &classes->keys[assigned->keys[face]], base, edge, along);
+        }
+    }
+}
+
 /// Every pair of patches must give the rows of the edge they share the same coefficients of the
 /// same control points; otherwise the surface would crack.
 static limn_bake_status check_agreement(limni_context *context, const limni_mesh *mesh,
@@ -186,18 +209,11 @@ static limn_bake_status check_agreement(limni_context *context, const limni_mesh
                                         limni_classifier *classifier) {
     uint64_t *const sums = limni_allocate(context, 3 * (size_t)mesh->face_count, sizeof *sums);
     if (!sums) return LIMN_BAKE_MEMORY;
-    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
-        const uint32_t face = h / 3, rotation = assigned->rotations[face];
-        const uint32_t edge = (h % 3 + 3 - rotation) % 3;
-        const limni_local_base *const base =
-            h % 3 == 0 ? limni_local_base_at(classifier, face, rotation) : &classifier->bases[0];
-        const bool along = mesh->pairs[h] == LIMNI_NONE || h < mesh->pairs[h];
-        sums[h] = sum_edge(classes, &classes->keys[assigned->keys[face]], base, edge, along);
-    }
+    sum_edges(mesh, classes, assigned, classifier, sums);
     limn_bake_status status = LIMN_BAKE_OK;
     for (uint32_t h = 0; h < 3 * mesh->face_count && status == LIMN_BAKE_OK; h++) {
         const uint32_t pair = mesh->pairs[h];
-        if (pair == LIMNI_NONE || pair < h || sums[h] == sums[pair]) continue;
+        if (is_open(mesh, h) || pair < h || sums[h] == sums[pair]) continue;
         limni_place a, b;
         status = limni_fail(context, LIMN_BAKE_INTERNAL,
                             "%s: defect in the baker: %s and %s disagree on their common edge",
@@ -238,7 +254,10 @@ limn_bake_status limni_patches_build(limni_context *context, const limni_mesh *m
     *patches = (limni_patches){
         .name = mesh->name,
         .controls = mesh->controls,
-        .record = {.control_count = mesh->control_count, .patch_count = mesh->face_count},
+        .boundary = rules->boundary,
+        .record = {.control_count = mesh->control_count,
+                   .patch_count = mesh->face_count - mesh->hole_count,
+                   .hole_count = mesh->hole_count},
     };
     find_bounds(mesh, &patches->record);
 

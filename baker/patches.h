@@ -9,6 +9,7 @@
 
 typedef struct limni_patches {
     const char *name;
+    limn_boundary boundary; ///< by which its classes were made
     limn_file_mesh record;
     float (*controls)[3];
     limn_file_run *runs;

@@ -1,15 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Wavefront OBJ: vertices and polygons. Texture coordinates and normals are checked and dropped;
- * free-form geometry, groups and materials are skipped.
+ * Wavefront OBJ: vertices, polygons, and OpenSubdiv's tags. Texture coordinates and normals are
+ * checked and dropped; free-form geometry, groups and materials are skipped.
  */
-#include "source.h"
-#include "text_scanner.h"
-
-#include <string.h>
+#include "read_tag.h"
 
 enum { POSITION, TEXTURE, NORMAL, ELEMENT_COUNT };
-enum { UNKNOWN_LIMIT = 8 };
 
 /// What face corners refer to. Faces may refer to elements that come later in the file, so the
 /// highest reference is checked at the end.
@@ -23,73 +19,19 @@ static const char *const element_nouns[ELEMENT_COUNT] = {"vertex", "texture coor
 
 typedef struct obj_reader {
     limni_scanner scanner;
-    limni_source *source;
-    size_t position_capacity;
-    size_t face_capacity;
-    size_t corner_capacity;
-    uint32_t corner_count;
+    limni_source_builder builder;
     obj_element elements[ELEMENT_COUNT];
-    limni_token unknown_keywords[UNKNOWN_LIMIT]; ///< in the text; noted once each
-    uint32_t unknown_count;
+    limni_word_list noted_keywords;
+    limni_word_list noted_tags;
 } obj_reader;
-
-static size_t grown_capacity(size_t capacity) {
-    return capacity == 0 ? 256 : 2 * capacity;
-}
-
-static limn_bake_status reserve_position(obj_reader *reader) {
-    limni_source *source = reader->source;
-    if (source->position_count < reader->position_capacity) return LIMN_BAKE_OK;
-
-    const size_t capacity = grown_capacity(reader->position_capacity);
-    limni_context *context = reader->scanner.context;
-    void *positions = limni_resize(context, source->positions, capacity, sizeof(float[3]));
-    if (!positions) return LIMN_BAKE_MEMORY;
-    source->positions = positions;
-    void *lines = limni_resize(context, source->position_lines, capacity, sizeof(uint32_t));
-    if (!lines) return LIMN_BAKE_MEMORY;
-    source->position_lines = lines;
-    reader->position_capacity = capacity;
-    return LIMN_BAKE_OK;
-}
-
-static limn_bake_status reserve_face(obj_reader *reader) {
-    limni_source *source = reader->source;
-    if (source->face_count < reader->face_capacity) return LIMN_BAKE_OK;
-
-    const size_t capacity = grown_capacity(reader->face_capacity);
-    limni_context *context = reader->scanner.context;
-    void *offsets = limni_resize(context, source->face_offsets, capacity + 1, sizeof(uint32_t));
-    if (!offsets) return LIMN_BAKE_MEMORY;
-    source->face_offsets = offsets;
-    void *lines = limni_resize(context, source->face_lines, capacity, sizeof(uint32_t));
-    if (!lines) return LIMN_BAKE_MEMORY;
-    source->face_lines = lines;
-    reader->face_capacity = capacity;
-    return LIMN_BAKE_OK;
-}
-
-static limn_bake_status reserve_corner(obj_reader *reader) {
-    if (reader->corner_count < reader->corner_capacity) return LIMN_BAKE_OK;
-
-    const size_t capacity = grown_capacity(reader->corner_capacity);
-    void *corners = limni_resize(reader->scanner.context, reader->source->face_corners, capacity,
-                                 sizeof(uint32_t));
-    if (!corners) return LIMN_BAKE_MEMORY;
-    reader->source->face_corners = corners;
-    reader->corner_capacity = capacity;
-    return LIMN_BAKE_OK;
-}
 
 /// v x y z, and then a weight or a colour, which are dropped.
 static limn_bake_status read_position(obj_reader *reader) {
-    limni_source *source = reader->source;
-    LIMNI_TRY(reserve_position(reader));
-    const uint32_t index = source->position_count;
-    source->position_lines[index] = reader->scanner.line;
-    LIMNI_TRY(limni_scanner_numbers(&reader->scanner, "vertex", 3, 7, source->positions[index]));
-    source->position_count = ++reader->elements[POSITION].count;
-    return LIMN_BAKE_OK;
+    float position[3];
+    const uint32_t line = reader->scanner.line;
+    LIMNI_TRY(limni_scanner_numbers(&reader->scanner, "vertex", 3, 7, position));
+    reader->elements[POSITION].count++;
+    return limni_builder_add_position(&reader->builder, position, line);
 }
 
 static limn_bake_status read_texture(obj_reader *reader) {
@@ -150,10 +92,7 @@ static limn_bake_status read_corner(obj_reader *reader, limni_token corner, uint
         uint32_t index = 0;
         if (!limni_parse_digits(&c, &number)) return fail_corner(reader, corner);
         LIMNI_TRY(resolve(reader, kind, relative, number, line, &index));
-        if (kind == POSITION) {
-            LIMNI_TRY(reserve_corner(reader));
-            reader->source->face_corners[reader->corner_count++] = index;
-        }
+        if (kind == POSITION) LIMNI_TRY(limni_builder_add_corner(&reader->builder, index));
         if (c == end) return LIMN_BAKE_OK;
         if (*c++ != '/') break;
     }
@@ -161,36 +100,30 @@ static limn_bake_status read_corner(obj_reader *reader, limni_token corner, uint
 }
 
 static limn_bake_status read_face(obj_reader *reader) {
-    limni_source *source = reader->source;
     const uint32_t line = reader->scanner.line;
-    const uint32_t first_corner = reader->corner_count;
-    LIMNI_TRY(reserve_face(reader));
     for (;;) {
         const limni_token corner = limni_scanner_next_token(&reader->scanner);
         if (corner.size == 0) break;
         LIMNI_TRY(read_corner(reader, corner, line));
     }
-    const uint32_t size = reader->corner_count - first_corner;
+    const uint32_t size = limni_builder_face_size(&reader->builder);
     if (size < 3) {
         return limni_scanner_fail(&reader->scanner, line,
                                   "face has %u corner%s; at least 3 are needed", size,
                                   size == 1 ? "" : "s");
     }
-    source->face_offsets[source->face_count] = first_corner;
-    source->face_lines[source->face_count] = line;
-    source->face_count++;
-    source->face_offsets[source->face_count] = reader->corner_count;
-    return LIMN_BAKE_OK;
+    return limni_builder_end_face(&reader->builder, line);
 }
 
 /// Keywords that change nothing about the polygons, or that are read elsewhere: names, materials,
-/// display, points and lines, free-form curves and surfaces, and OpenSubdiv's tags (t).
+/// display, points and lines, free-form curves and surfaces.
 static bool is_ignored(limni_token keyword) {
     static const char *const words[] = {
-        "bevel", "bmat", "c_interp",  "con",  "cstype", "ctech",      "curv",   "curv2", "d_interp",
-        "deg",   "end",  "g",         "hole", "l",      "lod",        "maplib", "mg",    "mtllib",
-        "o",     "p",    "parm",      "s",    "scrv",   "shadow_obj", "sp",     "stech", "step",
-        "surf",  "t",    "trace_obj", "trim", "usemap", "usemtl",     "vp",
+        "bevel",     "bmat",     "c_interp",   "con",    "cstype", "ctech", "curv",
+        "curv2",     "d_interp", "deg",        "end",    "g",      "hole",  "l",
+        "lod",       "maplib",   "mg",         "mtllib", "o",      "p",     "parm",
+        "s",         "scrv",     "shadow_obj", "sp",     "stech",  "step",  "surf",
+        "trace_obj", "trim",     "usemap",     "usemtl", "vp",
     };
     for (size_t word = 0; word < sizeof words / sizeof words[0]; word++) {
         if (limni_token_is(keyword, words[word])) return true;
@@ -198,16 +131,8 @@ static bool is_ignored(limni_token keyword) {
     return false;
 }
 
-/// Says once for each keyword that it is ignored; but not for the hundreds that a damaged file has.
 static void note_unknown(obj_reader *reader, limni_token keyword) {
-    if (reader->unknown_count == UNKNOWN_LIMIT) return;
-    for (uint32_t known = 0; known < reader->unknown_count; known++) {
-        const limni_token other = reader->unknown_keywords[known];
-        if (other.size == keyword.size && memcmp(other.text, keyword.text, keyword.size) == 0) {
-            return;
-        }
-    }
-    reader->unknown_keywords[reader->unknown_count++] = keyword;
+    if (!limni_word_list_add(&reader->noted_keywords, keyword)) return;
     limni_note(reader->scanner.context, "%s:%u: unknown keyword '%.*s' is ignored",
                reader->scanner.path, reader->scanner.line, limni_token_shown(keyword),
                keyword.text);
@@ -218,6 +143,8 @@ static limn_bake_status read_line(obj_reader *reader, limni_token keyword) {
     if (limni_token_is(keyword, "f")) return read_face(reader);
     if (limni_token_is(keyword, "vt")) return read_texture(reader);
     if (limni_token_is(keyword, "vn")) return read_normal(reader);
+    if (limni_token_is(keyword, "t"))
+        return limni_read_tag(&reader->scanner, &reader->builder, &reader->noted_tags);
     if (!is_ignored(keyword)) note_unknown(reader, keyword);
     limni_scanner_skip_line(&reader->scanner);
     return LIMN_BAKE_OK;
@@ -241,11 +168,11 @@ static limn_bake_status read_lines(obj_reader *reader) {
     while (limni_scanner_next_line(scanner, &keyword)) {
         LIMNI_TRY(read_line(reader, keyword));
     }
-    if (reader->source->position_count == 0) {
+    if (reader->builder.source->position_count == 0) {
         return limni_fail(scanner->context, LIMN_BAKE_BAD_INPUT, "%s: the file has no vertices",
                           scanner->path);
     }
-    if (reader->source->face_count == 0) {
+    if (reader->builder.source->face_count == 0) {
         return limni_fail(scanner->context, LIMN_BAKE_BAD_INPUT, "%s: the file has no faces",
                           scanner->path);
     }
@@ -254,8 +181,8 @@ static limn_bake_status read_lines(obj_reader *reader) {
 
 limn_bake_status limni_read_obj(limni_context *context, const char *text, size_t size,
                                 limni_source *source) {
-    *source = (limni_source){.index_base = 1, .name = source->name, .path = source->path};
-    obj_reader reader = {.source = source};
+    obj_reader reader = {.builder = limni_builder_begin(context, source)};
+    source->index_base = 1;
     LIMNI_TRY(limni_scanner_open(&reader.scanner, context, source->path, text, size));
     const limn_bake_status status = read_lines(&reader);
     limni_scanner_close(&reader.scanner);

@@ -10,10 +10,11 @@
 #include "fixed.h"
 #include "limn/bake.h"
 
-/// The options that decide the masks: the same for all meshes of a file.
+/// The options that decide the masks. Meshes of one file may differ in what limn_bake_desc leaves to
+/// them.
 typedef struct limni_rules {
     limn_weights weights;
-    limn_boundary boundary;
+    limn_boundary boundary; ///< LIMN_BOUNDARY_DEFAULT and LIMN_BOUNDARY_NONE: as edge-only
     limn_normals normals;
 } limni_rules;
 

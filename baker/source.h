@@ -1,9 +1,42 @@
 /* SPDX-License-Identifier: MIT */
-/* A polygon mesh as it was read, with the line that everything came from. */
+/* A polygon mesh and its tags as they were read, with the line that everything came from. */
 #ifndef LIMNI_SOURCE_H
 #define LIMNI_SOURCE_H
 
 #include "context.h"
+
+/// Sharpness is not negative; from LIMNI_SHARP_FOR_EVER on, infinity included, it does not fall.
+/// Vertices and faces are numbered from 0 as read, and need not be there. `line` is from 1; 0 for a
+/// mesh from memory.
+typedef struct limni_crease {
+    uint32_t a, b; ///< positions
+    float sharpness;
+    uint32_t line;
+} limni_crease;
+
+typedef struct limni_sharp_vertex {
+    uint32_t position;
+    float sharpness;
+    uint32_t line;
+} limni_sharp_vertex;
+
+typedef struct limni_hole {
+    uint32_t face;
+    uint32_t line;
+} limni_hole;
+
+#define LIMNI_SHARP_FOR_EVER 10.0f
+
+/// What is said about a mesh beyond its polygons, in the order of the file: of two tags of one
+/// thing the later counts.
+typedef struct limni_tags {
+    limni_crease *creases;
+    limni_sharp_vertex *sharp_vertices;
+    limni_hole *holes;
+    uint32_t crease_count, sharp_vertex_count, hole_count;
+    limn_boundary boundary; ///< LIMN_BOUNDARY_DEFAULT: nothing is said
+    limn_creasing creasing; ///< LIMN_CREASING_DEFAULT: nothing is said
+} limni_tags;
 
 typedef struct limni_source {
     uint32_t index_base;        ///< of the file's own numbering, for messages: 1 in OBJ, else 0
@@ -19,6 +52,7 @@ typedef struct limni_source {
     uint32_t *face_corners; ///< position indices from 0, each < position_count
     uint32_t *face_numbers; ///< [face_count] as read, from 0, set when faces are checked
     uint32_t *face_lines;   ///< [face_count], from 1; NULL for a mesh from memory
+    limni_tags tags;
 } limni_source;
 
 /// Reads a mesh file by its extension, .obj or .off (in any case). The arrays belong to the

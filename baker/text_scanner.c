@@ -135,6 +135,16 @@ bool limni_token_is(limni_token token, const char *word) {
     return strlen(word) == token.size && memcmp(token.text, word, token.size) == 0;
 }
 
+bool limni_word_list_add(limni_word_list *list, limni_token word) {
+    for (uint32_t w = 0; w < list->count; w++) {
+        const limni_token other = list->words[w];
+        if (other.size == word.size && memcmp(other.text, word.text, word.size) == 0) return false;
+    }
+    if (list->count == LIMNI_WORD_LIST_SIZE) return false;
+    list->words[list->count++] = word;
+    return true;
+}
+
 int limni_token_shown(limni_token token) {
     const size_t limit = 40;
     if (token.size <= limit) return (int)token.size;
@@ -205,6 +215,32 @@ limn_bake_status limni_scanner_number(const limni_scanner *scanner, limni_token 
     }
     return limni_scanner_fail(scanner, scanner->line, "'%.*s' is not a number",
                               limni_token_shown(token), token.text);
+}
+
+/// Infinity in any case, without tolower(), which asks the locale.
+static bool is_infinity(limni_token token) {
+    static const char word[] = "infinity";
+    if (token.size != 3 && token.size != sizeof word - 1) return false;
+    size_t same = 0;
+    while (same < token.size && (token.text[same] | 0x20) == word[same]) {
+        same++;
+    }
+    return same == token.size;
+}
+
+limn_bake_status limni_scanner_sharpness(const limni_scanner *scanner, limni_token token,
+                                         float *value) {
+    if (is_infinity(token)) {
+        *value = INFINITY;
+        return LIMN_BAKE_OK;
+    }
+    LIMNI_TRY(limni_scanner_number(scanner, token, "sharpness", value));
+    if (*value < 0) {
+        return limni_scanner_fail(scanner, scanner->line, "sharpness is negative: '%.*s'",
+                                  limni_token_shown(token), token.text);
+    }
+    *value += 0.0f; /* -0 is 0 */
+    return LIMN_BAKE_OK;
 }
 
 limn_bake_status limni_scanner_numbers(limni_scanner *scanner, const char *noun, uint32_t least,

@@ -46,12 +46,27 @@ void limni_scanner_skip_line(limni_scanner *scanner);
 
 bool limni_token_is(limni_token token, const char *word);
 
+/// Words that have been noted, so that each is noted once; but not the hundreds that a damaged file
+/// has.
+enum { LIMNI_WORD_LIST_SIZE = 8 };
+typedef struct limni_word_list {
+    limni_token words[LIMNI_WORD_LIST_SIZE]; ///< in the text
+    uint32_t count;
+} limni_word_list;
+
+/// Whether the word was not there before, and there was room for it.
+bool limni_word_list_add(limni_word_list *list, limni_token word);
+
 /// How much of a token to show in a message, for "%.*s".
 int limni_token_shown(limni_token token);
 
 /// A finite decimal number, correctly rounded, whatever the locale. `noun` names it in errors.
 limn_bake_status limni_scanner_number(const limni_scanner *scanner, limni_token token,
                                       const char *noun, float *value);
+
+/// A sharpness: a number that is not negative, or infinity as C prints it, "inf" or "infinity".
+limn_bake_status limni_scanner_sharpness(const limni_scanner *scanner, limni_token token,
+                                         float *value);
 
 /// Reads numbers up to the end of the line; at least `least`, at most `most`. The first three go
 /// to `values` if it is not NULL. `noun` names what the line describes.

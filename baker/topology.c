@@ -187,11 +187,15 @@ static limn_bake_status split_corner(limni_context *context, limni_mesh *mesh, u
         mesh->controls = limni_resize(context, mesh->controls, *capacity, sizeof *mesh->controls);
         mesh->first = limni_resize(context, mesh->first, *capacity, sizeof *mesh->first);
         mesh->valences = limni_resize(context, mesh->valences, *capacity, sizeof *mesh->valences);
-        if (!mesh->controls || !mesh->first || !mesh->valences) return LIMN_BAKE_MEMORY;
+        mesh->vertex_sharpness = limni_resize(context, mesh->vertex_sharpness, *capacity,
+                                              sizeof *mesh->vertex_sharpness);
+        if (!mesh->controls || !mesh->first || !mesh->valences || !mesh->vertex_sharpness)
+            return LIMN_BAKE_MEMORY;
     }
     *made = mesh->control_count++;
     uint32_t *const corner = &mesh->faces[half_edge / 3][half_edge % 3];
     memcpy(mesh->controls[*made], mesh->controls[*corner], sizeof *mesh->controls);
+    mesh->vertex_sharpness[*made] = mesh->vertex_sharpness[*corner];
     *corner = *made;
     return LIMN_BAKE_OK;
 }
@@ -332,8 +336,13 @@ limn_bake_status limni_mesh_build(limni_context *context, limni_source *source, 
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
                           "%s: more than %u vertices, or corners of faces",
                           source->path ? source->path : source->name, LIMNI_CORNERS_MAX);
+    if (source->tags.crease_count > LIMNI_CORNERS_MAX)
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: more than %u creases",
+                          source->path ? source->path : source->name, LIMNI_CORNERS_MAX);
+    LIMNI_TRY(limni_check_tags(context, source));
     if (context->desc.repair & LIMN_REPAIR_WELD) LIMNI_TRY(limni_weld(context, source));
     LIMNI_TRY(limni_check_faces(context, source));
     LIMNI_TRY(limni_triangulate(context, source, mesh));
+    LIMNI_TRY(limni_tag_mesh(context, source, mesh));
     return limni_connect(context, mesh);
 }

@@ -13,14 +13,9 @@
 
 /// The edges of the mesh so far, as a set.
 typedef struct edge_set {
-    uint64_t *keys; ///< 0: free
+    uint64_t *keys; ///< 0: free, which is no key, since the ends of an edge differ
     uint32_t size;
 } edge_set;
-
-static uint64_t edge_key(uint32_t a, uint32_t b) {
-    const uint64_t low = a < b ? a : b, high = a < b ? b : a;
-    return high << 32 | low; // never 0, since high > low
-}
 
 static uint64_t *find_edge(const edge_set *set, uint64_t key) {
     uint32_t at = (uint32_t)limni_hash_mix(key, 0) & (set->size - 1);
@@ -30,11 +25,11 @@ static uint64_t *find_edge(const edge_set *set, uint64_t key) {
 }
 
 static bool has_edge(const edge_set *set, uint32_t a, uint32_t b) {
-    return *find_edge(set, edge_key(a, b)) != 0;
+    return *find_edge(set, limni_edge_key(a, b)) != 0;
 }
 
 static void add_edge(edge_set *set, uint32_t a, uint32_t b) {
-    *find_edge(set, edge_key(a, b)) = edge_key(a, b);
+    *find_edge(set, limni_edge_key(a, b)) = limni_edge_key(a, b);
 }
 
 /// A polygon that is being cut, and where its triangles go.
@@ -114,7 +109,7 @@ static cut cut_at(const polygon *p, const edge_set *edges, uint32_t corner) {
         .corner = corner,
         .existing = has_edge(edges, p->corners[before], p->corners[after]),
         .length = squared_distance(at(p, before), at(p, after)),
-        .key = edge_key(p->corners[before], p->corners[after]),
+        .key = limni_edge_key(p->corners[before], p->corners[after]),
     };
 }
 

@@ -116,11 +116,20 @@ static void fill_blob(const limni_classes *classes, const part *parts, uint32_t 
     memcpy(blob, header, sizeof *header);
 }
 
+/// The boundary rule of all meshes, or that they differ.
+static const char *boundary_name(const limni_patches *meshes, uint32_t mesh_count) {
+    for (uint32_t m = 1; m < mesh_count; m++) {
+        if (meshes[m].boundary != meshes[0].boundary) return "mixed";
+    }
+    return meshes[0].boundary == LIMN_BOUNDARY_EDGE_AND_CORNER ? "edge-and-corner" : "edge-only";
+}
+
 /// How the file was baked. Nothing here depends on the host or on the time.
-static void describe(const limni_rules *rules, char *text, size_t size) {
+static void describe(const limni_rules *rules, const limni_patches *meshes, uint32_t mesh_count,
+                     char *text, size_t size) {
     snprintf(text, size, "scheme=loop weights=%s boundary=%s normals=%s",
              rules->weights == LIMN_WEIGHTS_WARREN ? "warren" : "loop",
-             rules->boundary == LIMN_BOUNDARY_EDGE_AND_CORNER ? "edge-and-corner" : "edge-only",
+             boundary_name(meshes, mesh_count),
              rules->normals == LIMN_NORMALS_EXACT ? "exact" : "none");
 }
 
@@ -138,7 +147,7 @@ limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rul
     if (!parts || !directory) return LIMN_BAKE_MEMORY;
 
     char info[128];
-    describe(rules, info, sizeof info);
+    describe(rules, meshes, mesh_count, info, sizeof info);
     parts[0] = (part){LIMN_CHUNK_INFO, LIMN_FORMAT_NO_MESH, info, strlen(info) + 1};
     parts[1] = (part){LIMN_CHUNK_CLASSES, LIMN_FORMAT_NO_MESH, class_records,
                       classes->count * sizeof *class_records};

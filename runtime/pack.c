@@ -204,6 +204,7 @@ static limn_result validate_mesh_sizes(const limn_pack *pack, uint32_t m) {
         return LIMN_ERROR_MESH;
     const limn_file_mesh *const record = chunk_data(pack, m, LIMN_CHUNK_MESH);
     if (record->domain >= LIMN_DOMAIN_COUNT ||
+        record->hole_count > UINT32_MAX - record->patch_count ||
         !chunk_has_size(pack, m, LIMN_CHUNK_CONTROLS, record->control_count, 3 * sizeof(float)) ||
         !chunk_has_size(pack, m, LIMN_CHUNK_RUNS, record->run_count, sizeof(limn_file_run)) ||
         !chunk_has_size(pack, m, LIMN_CHUNK_FACES, record->patch_count, sizeof(uint32_t)) ||
@@ -279,7 +280,7 @@ static limn_result validate_patches(const limn_mesh *mesh, const limn_file_run *
 static limn_result validate_faces(const limn_mesh *mesh) {
     for (uint32_t p = 0; p < mesh->patch_count; p++) {
         const limn_patch_face face = limn_mesh_face(mesh, p);
-        if (face.face >= mesh->patch_count || face.rotation >= mesh->domain->corner_count)
+        if (face.face >= mesh->face_count || face.rotation >= mesh->domain->corner_count)
             return LIMN_ERROR_FACE;
     }
     return LIMN_OK;
@@ -356,6 +357,7 @@ limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index) {
         .controls = chunk_data(pack, mesh_index, LIMN_CHUNK_CONTROLS),
         .control_count = record->control_count,
         .patch_count = record->patch_count,
+        .face_count = record->patch_count + record->hole_count,
         .run_count = record->run_count,
         .faces = chunk_data(pack, mesh_index, LIMN_CHUNK_FACES),
         .indices = chunk_data(pack, mesh_index, LIMN_CHUNK_INDICES),

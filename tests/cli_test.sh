@@ -152,6 +152,26 @@ notes 'cube.off: triangulated 3 quads and 3 larger polygons: 7 faces became 16' 
 works bake -q "$cube" -o cube.limn
 works bake -q "$torus" "$sail" "$cube" "$torus" -o several.limn
 
+
+# What the mesh asks for, unless the command line says otherwise; and what it asks for in vain.
+tagged() { { cat "$sail" && echo "$1"; } >tagged/sail.obj; }
+mkdir tagged
+tagged 't interpolateboundary 1/0/0 1'
+works bake tagged/sail.obj -o tagged.limn
+cmp tagged.limn corner.limn || fail "t interpolateboundary does nothing"
+works bake tagged/sail.obj -o tagged.limn --boundary edge-only
+cmp tagged.limn sail.limn || fail "--boundary does not prevail"
+tagged 't interpolateboundary 1/0/0 0'
+notes 'sail.obj: without boundary interpolation.*not supported yet' bake tagged/sail.obj -o tagged.limn
+tagged 't hole 3/0/0 0 5 87'
+works bake tagged/sail.obj -o tagged.limn
+works info tagged.limn --json
+expect "patches beside holes" "$(json patches)" 85
+tagged 't crease 2/1/0 0 5000 1'
+notes 'sail.obj: ignored: 1 creases .*line' bake tagged/sail.obj -o tagged.limn
+tagged 't vertexedit 16/24/3'
+notes "sail.obj:[0-9]*: unknown tag 'vertexedit' is ignored" bake tagged/sail.obj -o tagged.limn
+
 # Files take the usual permissions, replace what was there, and go where links lead.
 (umask 027 && "$limn" bake -q "$torus" -o mode.limn)
 expect "permissions" "$(ls -l mode.limn | cut -c1-10)" "-rw-r-----"
@@ -190,6 +210,8 @@ printf "${four}f 1 2 3\nf 1 3 3\n" | bad degenerate.obj '6: degenerate face'
 printf "${four}f 1 2 3\nf 3 1 2\n" | bad repeated.obj '6: repeated face'
 printf "${four}f 1 2 5\n" | bad range.obj '5: .*5'
 printf "${four}f 1 2 0\n" | bad zero.obj '5: '
+printf "${four}f 1 2 3\nt crease 2/1/0 0 1 -1\n" | bad negative.obj "6: sharpness is negative: '-1'"
+printf "${four}f 1 2 3\nt hole 1/0/0 0\n" | bad hole.obj ': every face is a hole'
 printf "v 0 0 nan\nf 1 1 1\n" | bad nan.obj '1: '
 printf "v 0 0 1e99\nf 1 1 1\n" | bad huge.obj '1: '
 printf "" | bad empty.obj ' '

@@ -201,9 +201,11 @@ static bool open_baked(limn_baker *baker, limn_mesh *mesh) {
 }
 
 static bool load(subject *s, const char *path) {
-    *s = (subject){.baker = limn_baker_create(&(limn_bake_desc){.repair = LIMN_REPAIR_ALL})};
+    const limn_bake_desc desc = {.repair = LIMN_REPAIR_ALL, .boundary = LIMN_BOUNDARY_EDGE_ONLY};
+    *s = (subject){.baker = limn_baker_create(&desc)};
     if (limn_baker_add_file(s->baker, path) != LIMN_BAKE_OK) return false;
     if (!open_baked(s->baker, &s->mesh) || s->mesh.patch_count > FACES_MAX) return false;
+    if (s->mesh.patch_count < s->mesh.face_count) return false; // holes are in no file
     find_faces(s);
     // A vertex of valence 2 gives two edges with the same ends.
     if (!find_edges(s) || bake_fine(s) != LIMN_BAKE_OK) return false;

@@ -35,9 +35,27 @@ static limn_bake_status read_text(limni_context *context, read_text_fn *read, co
     return status;
 }
 
+static bool is_sharpness(float value) {
+    return value >= 0 && !signbit(value);
+}
+
+/// Tags may name what is not there.
+static bool has_valid_tags(const limni_tags *tags) {
+    bool valid = true;
+    for (uint32_t c = 0; c < tags->crease_count; c++)
+        valid = valid && is_sharpness(tags->creases[c].sharpness) && tags->creases[c].line > 0;
+    for (uint32_t v = 0; v < tags->sharp_vertex_count; v++)
+        valid = valid && is_sharpness(tags->sharp_vertices[v].sharpness) &&
+                tags->sharp_vertices[v].line > 0;
+    for (uint32_t h = 0; h < tags->hole_count; h++)
+        valid = valid && tags->holes[h].line > 0;
+    return valid;
+}
+
 /// Everything that source.h promises about the arrays.
 static bool is_valid(const limni_source *source) {
     bool valid = source->position_count > 0 && source->face_count > 0;
+    valid = valid && has_valid_tags(&source->tags);
     for (uint32_t position = 0; position < source->position_count; position++) {
         const float *p = source->positions[position];
         valid = valid && isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
@@ -74,6 +92,28 @@ static const char *describe(const limni_source *source) {
                                      source->face_corners[corner]);
         }
     }
+    return text;
+}
+
+/// The tags as "line:a-b=sharpness … line:vertex=sharpness … line:face … boundary creasing".
+static const char *describe_tags(const limni_source *source) {
+    static char text[1024];
+    const limni_tags *const tags = &source->tags;
+    size_t used = 0;
+    for (uint32_t c = 0; c < tags->crease_count; c++) {
+        const limni_crease *const crease = &tags->creases[c];
+        used += (size_t)snprintf(text + used, sizeof text - used, "%u:%u-%u=%g ", crease->line,
+                                 crease->a, crease->b, (double)crease->sharpness);
+    }
+    for (uint32_t v = 0; v < tags->sharp_vertex_count; v++) {
+        const limni_sharp_vertex *const vertex = &tags->sharp_vertices[v];
+        used += (size_t)snprintf(text + used, sizeof text - used, "%u:%u=%g ", vertex->line,
+                                 vertex->position, (double)vertex->sharpness);
+    }
+    for (uint32_t h = 0; h < tags->hole_count; h++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%u:%u ", tags->holes[h].line,
+                                 tags->holes[h].face);
+    snprintf(text + used, sizeof text - used, "%d %d", (int)tags->boundary, (int)tags->creasing);
     return text;
 }
 
@@ -206,6 +246,99 @@ static void test_bad_obj(void) {
         {"#\rv 0 0 0\r\n# \x7f\n", "t.obj:3: byte 0x7f does not belong in a text file"},
         {"\x89PNG\r\n\x1a\n", "t.obj:2: byte 0x1a does not belong in a text file"},
     };
+    check_bad(limni_read_obj, cases, COUNT(cases));
+}
+
+#define FACE XYZ "f 1 2 3\n"
+
+static void test_good_tags(void) {
+    static const text_case cases[] = {
+        {FACE, "0 0"},
+        {FACE "t crease 2/1/0 0 1 2.5\n", "5:0-1=2.5 0 0"},
+        {"t crease 2/1/0 0 1 4\n" FACE, "1:0-1=4 0 0"},
+        {FACE "t crease 4/1/0 0 1 2 1 3 \n", "5:0-1=3 5:2-1=3 0 0"},
+        {FACE "t crease 4/2/0 0 1 2 1 3 .5\n", "5:0-1=3 5:2-1=0.5 0 0"},
+        {FACE "t crease 4/2/0 0 1 \\\n2 1 3 \\\n.5\n#\nt hole 1/0/0 0",
+         "5:0-1=3 5:2-1=0.5 9:0 0 0"},
+        {FACE "t crease 2/1/0 0 1 -0\nt crease 2/1/0 1 0 inf\n", "5:0-1=0 6:1-0=inf 0 0"},
+        {FACE "t corner 1/1/0 7 Infinity\nt corner 2/2/0 0 1 1 0\nt corner 2/1/0 1 2 9\n",
+         "5:7=inf 6:0=1 6:1=0 7:1=9 7:2=9 0 0"},
+        {FACE "t hole 2/0/0 0 4294967295\n", "5:0 5:4294967295 0 0"},
+        {FACE "t interpolateboundary 1/0/0 0", "3 0"},
+        {FACE "t interpolateboundary 1/0/0 1", "2 0"},
+        {FACE "t interpolateboundary 1/0/0 1\nt interpolateboundary 1/0/0 2", "1 0"},
+        {FACE "t creasemethod 0/0/1 normal", "0 1"},
+        {FACE "t creasemethod 0/0/1 chaikin # smooth", "0 2"},
+        {FACE "t smoothtriangles 0/0/1 smooth\nt facevaryinginterpolateboundary 1/0/0 1\n"
+              "t facevaryingpropagatecorners 1/0/0 1\nt spam 1\n",
+         "0 0"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        limni_context context = {0};
+        limni_source source;
+        const limn_bake_status status =
+            read_text(&context, limni_read_obj, cases[i].text, strlen(cases[i].text), &source);
+        CHECK_TEXT(context.error, "");
+        if (CHECK_EQUAL(status, LIMN_BAKE_OK)) {
+            CHECK(is_valid(&source));
+            CHECK_TEXT(describe_tags(&source), cases[i].expected);
+        }
+        limni_release_all(&context);
+    }
+}
+
+static void test_bad_tags(void) {
+#define PAIRS "pairs of vertices and one sharpness, or one for each, are expected"
+    static const text_case cases[] = {
+        {FACE "t\n", "t.obj:5: tag without a name"},
+        {FACE "t crease\n", "t.obj:5: '' does not count the values of a tag; "
+                            "INTS/FLOATS/STRINGS is expected"},
+        {FACE "t hole 1/0\n", "t.obj:5: '1/0' does not count the values of a tag; "
+                              "INTS/FLOATS/STRINGS is expected"},
+        {FACE "t hole 1/0/0/0\n", "t.obj:5: '1/0/0/0' does not count the values of a tag; "
+                                  "INTS/FLOATS/STRINGS is expected"},
+        {FACE "t hole -1/0/0\n", "t.obj:5: '-1/0/0' does not count the values of a tag; "
+                                 "INTS/FLOATS/STRINGS is expected"},
+        {FACE "t hole 4294967296/0/0 0\n",
+         "t.obj:5: '4294967296/0/0' does not count the values of a tag; INTS/FLOATS/STRINGS is "
+         "expected"},
+        {FACE "t crease 0/1/0 1\n", "t.obj:5: tag 'crease' has 0/1/0 values; " PAIRS},
+        {FACE "t crease 3/1/0 0 1 2 1\n", "t.obj:5: tag 'crease' has 3/1/0 values; " PAIRS},
+        {FACE "t crease 2/2/0 0 1 1 1\n", "t.obj:5: tag 'crease' has 2/2/0 values; " PAIRS},
+        {FACE "t crease 2/0/0 0 1\n", "t.obj:5: tag 'crease' has 2/0/0 values; " PAIRS},
+        {FACE "t crease 2/1/1 0 1 1 a\n", "t.obj:5: tag 'crease' has 2/1/1 values; " PAIRS},
+        {FACE "t crease 2/1/0 0 1\n",
+         "t.obj:5: tag 'crease' has 2/1/0 values; the line ends before them"},
+        {FACE "t hole 4294967295/0/0 0\n",
+         "t.obj:5: tag 'hole' has 4294967295/0/0 values; the line ends before them"},
+        {FACE "t crease 2/1/0 0 1 1 1\n", "t.obj:5: '1' after the values of tag 'crease'"},
+        {FACE "t crease 2/1/0 0 -1 1\n", "t.obj:5: '-1' is not a valid vertex of a crease"},
+        {FACE "t crease 2/1/0 0 1.5 1\n", "t.obj:5: '1.5' is not a valid vertex of a crease"},
+        {FACE "t crease 2/1/0 0 4294967296 1\n",
+         "t.obj:5: vertex of a crease 4294967296 is too large"},
+        {FACE "t crease 2/1/0 0 1 -0.5\n", "t.obj:5: sharpness is negative: '-0.5'"},
+        {FACE "t crease 2/1/0 0 1 -inf\n", "t.obj:5: sharpness is not finite: '-inf'"},
+        {FACE "t crease 2/1/0 0 1 nan\n", "t.obj:5: sharpness is not finite: 'nan'"},
+        {FACE "t crease 2/1/0 0 1 1e39\n", "t.obj:5: sharpness is not finite: '1e39'"},
+        {FACE "t crease 2/1/0 0 1 infinit\n", "t.obj:5: sharpness is not finite: 'infinit'"},
+        {FACE "t crease 2/1/0 0 1 x\n", "t.obj:5: 'x' is not a number"},
+        {FACE "t corner 0/1/0 1\n", "t.obj:5: tag 'corner' has 0/1/0 values; vertices and one "
+                                    "sharpness, or one for each, are expected"},
+        {FACE "t corner 3/2/0 0 1 2 1 1\n", "t.obj:5: tag 'corner' has 3/2/0 values; vertices and "
+                                            "one sharpness, or one for each, are expected"},
+        {FACE "t corner 1/1/0 x 1\n", "t.obj:5: 'x' is not a valid corner"},
+        {FACE "t hole 0/0/0\n", "t.obj:5: tag 'hole' has 0/0/0 values; faces are expected"},
+        {FACE "t hole 1/1/0 0 1\n", "t.obj:5: tag 'hole' has 1/1/0 values; faces are expected"},
+        {FACE "t interpolateboundary 2/0/0 1 1\n",
+         "t.obj:5: tag 'interpolateboundary' has 2/0/0 values; one whole number is expected"},
+        {FACE "t interpolateboundary 1/0/0 3\n",
+         "t.obj:5: boundary interpolation 3 is unknown; 0, 1 or 2 is expected"},
+        {FACE "t creasemethod 0/0/0\n",
+         "t.obj:5: tag 'creasemethod' has 0/0/0 values; one word is expected"},
+        {FACE "t creasemethod 0/0/1 Normal\n",
+         "t.obj:5: crease method 'Normal' is unknown; normal or chaikin is expected"},
+    };
+#undef PAIRS
     check_bad(limni_read_obj, cases, COUNT(cases));
 }
 
@@ -377,11 +510,22 @@ static void test_notes(void) {
     CHECK_TEXT(notes.first, "t.obj:1: unknown keyword 'spam' is ignored");
     CHECK_TEXT(notes.last, "t.obj:11: unknown keyword 'h' is ignored");
     limni_release_all(&context);
+
+    static const char tags[] = FACE "t vertexedit 1\nt spam\nt vertexedit 2/\n"
+                                    "t smoothtriangles 0/0/1 smooth\n";
+    notes = (note_list){0};
+    CHECK_EQUAL(read_text(&context, limni_read_obj, tags, sizeof tags - 1, &source), LIMN_BAKE_OK);
+    CHECK_EQUAL(notes.count, 2);
+    CHECK_TEXT(notes.first, "t.obj:5: unknown tag 'vertexedit' is ignored");
+    CHECK_TEXT(notes.last, "t.obj:6: unknown tag 'spam' is ignored");
+    limni_release_all(&context);
 }
 
 static const char obj_sample[] =
     "\xef\xbb\xbf# cage\r\nmtllib a.mtl\nv 0 0 0\nv 1 0 0 .5 .5 .5\nv 1.5e0 -1 +.25\\\n\nvt 0 1\n"
-    "vn 0 0 1\nspam\nf 1/1/1 2/1/1 3/-1/-1\nf 4//1 \\\n 3 -2\nv 0 1 0\n";
+    "vn 0 0 1\nspam\nt crease 4/2/0 0 1 2 3 1 inf\nt corner 1/1/0 0 9.5\nt hole 1/0/0 1\n"
+    "t creasemethod 0/0/1 chaikin\nt interpolateboundary 1/0/0 2\nf 1/1/1 2/1/1 3/-1/-1\nf 4//1 "
+    "\\\n 3 -2\nv 0 1 0\n";
 static const char off_sample[] =
     "COFF # cage\r\n4 2 0\n0 0 0 1 1 1\n1 0 0 1 1 1 1\n\n1.5e0 -1 +.25 "
     "0 0 0\n0 1 0 1 1 1\n3 0 1 2 255 0 0\n4 0 1 2 3\n# end\n";
@@ -548,6 +692,8 @@ static void test_assets(void) {
 int main(void) {
     test_good_obj();
     test_bad_obj();
+    test_good_tags();
+    test_bad_tags();
     test_good_off();
     test_bad_off();
     test_zero_bytes();

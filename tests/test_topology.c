@@ -643,6 +643,302 @@ static void test_triangulation_notes(void) {
     limn_baker_destroy(result.baker);
 }
 
+// ---- Tags
+
+/// A cube of quads, its bottom missing. Vertex v lies at the bits of v.
+static const float cube_positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0,
+                                       0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
+static const uint32_t cube_sizes[] = {4, 4, 4, 4, 4};
+static const uint32_t cube_corners[] = {4, 5, 7, 6, 0, 1, 5, 4, 1, 3, 7, 5, 3, 2, 6, 7, 2, 0, 4, 6};
+
+/// The sharpness of all half-edges between two places; -1 if they differ, or if there are none.
+static float sharpness_between(const limni_mesh *mesh, uint32_t a, uint32_t b) {
+    float found = -1;
+    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
+        const float *const start = mesh->controls[limni_half_edge_start(mesh, h)];
+        const float *const end = mesh->controls[limni_half_edge_end(mesh, h)];
+        const float *const p = cube_positions + 3 * a, *const q = cube_positions + 3 * b;
+        const bool along = memcmp(start, p, 12) == 0 && memcmp(end, q, 12) == 0;
+        const bool against = memcmp(start, q, 12) == 0 && memcmp(end, p, 12) == 0;
+        if (!along && !against) continue;
+        if (found >= 0 && mesh->edge_sharpness[h] != found) return -1;
+        found = mesh->edge_sharpness[h];
+    }
+    return found;
+}
+
+/// How many half-edges are not smooth.
+static uint32_t count_sharp(const limni_mesh *mesh) {
+    uint32_t count = 0;
+    for (uint32_t h = 0; h < 3 * mesh->face_count; h++)
+        count += mesh->edge_sharpness[h] != 0;
+    return count;
+}
+
+/// The cube with its tags, of which any may be changed, and built.
+typedef struct tagged {
+    limni_context context;
+    limni_crease creases[4];
+    limni_sharp_vertex vertices[3];
+    limni_hole holes[3];
+    limni_source source;
+    limni_mesh mesh;
+    char notes[512];
+} tagged;
+
+static void append_note(void *user, const char *text) {
+    tagged *const t = user;
+    const size_t used = strlen(t->notes);
+    snprintf(t->notes + used, sizeof t->notes - used, "%s\n", text);
+}
+
+static void *copy(limni_context *context, const void *bytes, size_t size) {
+    void *const copied = limni_allocate(context, size, 1);
+    memcpy(copied, bytes, size);
+    return copied;
+}
+
+/// Creases: an edge inside, one of the boundary, a diagonal; and one again, turned round.
+static void begin_tagged(tagged *t, uint32_t repair) {
+    static const uint32_t offsets[] = {0, 4, 8, 12, 16, 20};
+    *t = (tagged){.creases = {{5, 7, 1.5f, 11}, {0, 1, 3, 12}, {4, 7, 2, 13}, {7, 5, 2.5f, 14}},
+                  .vertices = {{4, 1, 21}, {6, INFINITY, 22}, {4, 0.5f, 23}},
+                  .holes = {{2, 31}, {2, 32}, {4, 33}}};
+    t->context.desc = (limn_bake_desc){.repair = repair, .note = append_note, .user = t};
+    t->source =
+        (limni_source){.name = "cube",
+                       .positions = copy(&t->context, cube_positions, sizeof cube_positions),
+                       .position_count = 8,
+                       .face_count = 5,
+                       .face_offsets = copy(&t->context, offsets, sizeof offsets),
+                       .face_corners = copy(&t->context, cube_corners, sizeof cube_corners),
+                       .tags = {.creases = t->creases,
+                                .sharp_vertices = t->vertices,
+                                .holes = t->holes,
+                                .crease_count = 4,
+                                .sharp_vertex_count = 3,
+                                .hole_count = 3,
+                                .boundary = LIMN_BOUNDARY_EDGE_AND_CORNER,
+                                .creasing = LIMN_CREASING_CHAIKIN}};
+}
+
+static bool build_tagged(tagged *t) {
+    if (CHECK_EQUAL(limni_mesh_build(&t->context, &t->source, &t->mesh), LIMN_BAKE_OK)) return true;
+    fprintf(stderr, "    %s\n", t->context.error);
+    return false;
+}
+
+static void test_tags(void) {
+    tagged t;
+    begin_tagged(&t, 0);
+    if (!build_tagged(&t)) return;
+    const limni_mesh *const mesh = &t.mesh;
+    CHECK(sharpness_between(mesh, 5, 7) == 2.5f);
+    CHECK(sharpness_between(mesh, 0, 1) == 3);
+    CHECK(has_edge(mesh, 4, 7) && sharpness_between(mesh, 4, 7) == 0);
+    CHECK_EQUAL(count_sharp(mesh), 3);
+    for (uint32_t c = 0; c < 8; c++)
+        CHECK(mesh->vertex_sharpness[c] == (c == 4 ? 0.5f : c == 6 ? INFINITY : 0));
+    CHECK_EQUAL(mesh->hole_count, 4);
+    for (uint32_t face = 0; face < mesh->face_count; face++)
+        CHECK_EQUAL(mesh->holes[face], mesh->polygons[face] == 2 || mesh->polygons[face] == 4);
+    CHECK_EQUAL(mesh->boundary, LIMN_BOUNDARY_EDGE_AND_CORNER);
+    CHECK_EQUAL(mesh->creasing, LIMN_CREASING_CHAIKIN);
+    CHECK_CONTAINS(t.notes, "cube: ignored: 1 creases that name no edge of a face (the first is in "
+                            "line 13)\n");
+    limni_release_all(&t.context);
+}
+
+/// From memory, without lines.
+static void test_ignored_tags(void) {
+    tagged t;
+    begin_tagged(&t, 0);
+    t.creases[0] = (limni_crease){0, 3, 1, 0};
+    t.creases[1] = (limni_crease){0, UINT32_MAX, 1, 0};
+    t.creases[2] = (limni_crease){1, 1, 1, 0};
+    t.vertices[1] = (limni_sharp_vertex){8, 1, 0};
+    t.holes[1] = (limni_hole){5, 0};
+    if (!build_tagged(&t)) return;
+    CHECK_EQUAL(count_sharp(&t.mesh), 2);
+    CHECK_EQUAL(t.mesh.hole_count, 4);
+    CHECK_CONTAINS(t.notes,
+                   "ignored: 3 creases that name no edge of a face (the first is number 0)");
+    CHECK_CONTAINS(t.notes, "ignored: 1 corners that name no vertex (the first is number 1)");
+    CHECK_CONTAINS(t.notes, "ignored: 1 holes that name no face (the first is number 1)");
+    limni_release_all(&t.context);
+}
+
+/// A cube of loose quads: tags follow the control points that are welded, and the faces that move
+/// up when one is dropped.
+static void test_tags_follow_repairs(void) {
+    tagged t;
+    begin_tagged(&t, LIMN_REPAIR_ALL);
+    limni_source *const source = &t.source;
+    float loose[20][3];
+    for (uint32_t c = 0; c < 20; c++) {
+        memcpy(loose[c], cube_positions + 3 * cube_corners[c], sizeof loose[c]);
+        source->face_corners[c] = c;
+    }
+    source->positions = copy(&t.context, loose, sizeof loose);
+    source->position_count = 20;
+    source->face_corners[6] = source->face_corners[5] =
+        source->face_corners[4];                   // face 1 is dropped
+    t.creases[0] = (limni_crease){1, 2, 1.5f, 1};  // 5-7 in face 0
+    t.creases[1] = (limni_crease){17, 18, 3, 2};   // 0-4 in face 4
+    t.creases[2] = (limni_crease){12, 13, 4, 3};   // 3-2 in face 3
+    t.creases[3] = (limni_crease){13, 12, 0, 4};   // smooth again
+    t.vertices[0] = (limni_sharp_vertex){3, 7, 5}; // 6
+    t.source.tags.sharp_vertex_count = 1;
+    if (!build_tagged(&t)) return;
+    CHECK_EQUAL(t.mesh.control_count, 8);
+    CHECK(sharpness_between(&t.mesh, 5, 7) == 1.5f);
+    CHECK(sharpness_between(&t.mesh, 0, 4) == 3);
+    CHECK(sharpness_between(&t.mesh, 3, 2) == 0);
+    CHECK_EQUAL(count_sharp(&t.mesh), 3);
+    for (uint32_t c = 0; c < 8; c++) {
+        const bool is_6 = memcmp(t.mesh.controls[c], cube_positions + 3 * 6, 12) == 0;
+        CHECK(t.mesh.vertex_sharpness[c] == (is_6 ? 7 : 0));
+    }
+    for (uint32_t face = 0; face < t.mesh.face_count; face++) {
+        const uint32_t number = t.mesh.face_numbers[t.mesh.polygons[face]];
+        CHECK_EQUAL(t.mesh.holes[face], number == 2 || number == 4);
+    }
+    limni_release_all(&t.context);
+}
+
+/// Where a mesh is split, both sides keep their tags.
+static void test_tags_follow_splits(void) {
+    tagged t;
+    begin_tagged(&t, LIMN_REPAIR_SPLIT);
+    static const uint32_t fin[] = {5, 7, 2}; // a third face at edge 5-7
+    uint32_t *const corners = limni_resize(&t.context, t.source.face_corners, 23, sizeof *corners);
+    uint32_t *const offsets = limni_resize(&t.context, t.source.face_offsets, 7, sizeof *offsets);
+    memcpy(corners + 20, fin, sizeof fin);
+    offsets[6] = 23;
+    t.source.face_corners = corners;
+    t.source.face_offsets = offsets;
+    t.source.face_count = 6;
+    t.vertices[0] = (limni_sharp_vertex){7, 2, 1};
+    if (!build_tagged(&t)) return;
+    CHECK(sharpness_between(&t.mesh, 5, 7) == 2.5f);
+    CHECK_EQUAL(count_sharp(&t.mesh), 4); // three times 5-7, and 0-1
+    uint32_t copies = 0;
+    for (uint32_t c = 0; c < t.mesh.control_count; c++) {
+        if (memcmp(t.mesh.controls[c], cube_positions + 3 * 7, 12) != 0) continue;
+        CHECK(t.mesh.vertex_sharpness[c] == 2);
+        copies++;
+    }
+    CHECK(copies > 1);
+    limni_release_all(&t.context);
+}
+
+static limn_bake_mesh tagged_mesh(void) {
+    static const uint32_t crease[] = {5, 7}, vertex[] = {6}, holes[] = {1, 3};
+    static const float sharpness[] = {2};
+    return (limn_bake_mesh){.name = "cube",
+                            .positions = cube_positions,
+                            .position_count = 8,
+                            .face_sizes = cube_sizes,
+                            .face_count = 5,
+                            .face_indices = cube_corners,
+                            .crease_edges = crease,
+                            .crease_sharpness = sharpness,
+                            .crease_count = 1,
+                            .sharp_vertices = vertex,
+                            .vertex_sharpness = sharpness,
+                            .sharp_vertex_count = 1,
+                            .holes = holes,
+                            .hole_count = 2};
+}
+
+static const char *bake_error(const limn_bake_mesh *mesh) {
+    static char text[256];
+    limn_baker *const baker = limn_baker_create(NULL);
+    CHECK_EQUAL(limn_baker_add_mesh(baker, mesh), LIMN_BAKE_BAD_INPUT);
+    snprintf(text, sizeof text, "%s", limn_baker_error(baker));
+    limn_baker_destroy(baker);
+    return text;
+}
+
+static void test_bad_tags(void) {
+    static const float negative[] = {-1}, not_a_number[] = {NAN};
+    static const uint32_t all[] = {0, 1, 2, 3, 4};
+    limn_bake_mesh mesh = tagged_mesh();
+    mesh.crease_sharpness = negative;
+    CHECK_TEXT(bake_error(&mesh), "cube: the sharpness of crease 0 is negative or not a number");
+    mesh = tagged_mesh();
+    mesh.vertex_sharpness = not_a_number;
+    CHECK_TEXT(bake_error(&mesh),
+               "cube: the sharpness of sharp vertex 0 is negative or not a number");
+    mesh = tagged_mesh();
+    mesh.holes = all;
+    mesh.hole_count = 5;
+    CHECK_TEXT(bake_error(&mesh), "cube: every face is a hole");
+}
+
+/// Holes have no patches, and leave those of the other faces as they are.
+static void test_holes(void) {
+    const limn_bake_mesh given = tagged_mesh();
+    limn_bake_mesh whole_mesh = given;
+    whole_mesh.hole_count = 0;
+    limn_pack packs[2];
+    limn_mesh meshes[2];
+    limn_baker *bakers[2];
+    for (int k = 0; k < 2; k++) {
+        const void *blob;
+        size_t size;
+        bakers[k] = limn_baker_create(NULL);
+        CHECK_EQUAL(limn_baker_add_mesh(bakers[k], k ? &whole_mesh : &given), LIMN_BAKE_OK);
+        CHECK_EQUAL(limn_baker_finish(bakers[k], &blob, &size), LIMN_BAKE_OK);
+        CHECK_EQUAL(limn_pack_open(&packs[k], blob, size), LIMN_OK);
+        meshes[k] = limn_pack_mesh(&packs[k], 0);
+    }
+    CHECK_EQUAL(meshes[0].patch_count, 6);
+    CHECK_EQUAL(meshes[0].face_count, 10);
+    CHECK_EQUAL(meshes[1].patch_count, 10);
+    float(*const vertices[])[153][3] = {calloc(10, sizeof **vertices),
+                                        calloc(10, sizeof **vertices)};
+    for (int k = 0; k < 2; k++) {
+        const limn_plan plan = limn_plan_uniform(&meshes[k], LIMN_LEVEL_MAX);
+        limn_evaluate(&plan, meshes[k].controls, 0, plan.patch_count,
+                      &(limn_output){.vertices = vertices[k]});
+    }
+    for (uint32_t p = 0; p < 6; p++) {
+        const uint32_t face = limn_mesh_face(&meshes[0], p).face;
+        CHECK(face / 2 != 1 && face / 2 != 3);
+        uint32_t other = 0;
+        while (limn_mesh_face(&meshes[1], other).face != face)
+            other++;
+        CHECK(memcmp(vertices[0][p], vertices[1][other], sizeof **vertices) == 0);
+    }
+    for (int k = 0; k < 2; k++) {
+        limn_baker_destroy(bakers[k]);
+        free(vertices[k]);
+    }
+}
+
+/// What the mesh asks for, unless the options say otherwise.
+static void test_boundary_of_mesh(void) {
+    static const limn_boundary all[] = {LIMN_BOUNDARY_DEFAULT, LIMN_BOUNDARY_EDGE_ONLY,
+                                        LIMN_BOUNDARY_EDGE_AND_CORNER};
+    for (int option = 0; option < 3; option++) {
+        for (int asked = 0; asked < 3; asked++) {
+            const void *blob;
+            size_t size;
+            limn_pack pack;
+            limn_bake_mesh mesh = tagged_mesh();
+            mesh.boundary = all[asked];
+            limn_baker *const baker = limn_baker_create(&(limn_bake_desc){.boundary = all[option]});
+            CHECK_EQUAL(limn_baker_add_mesh(baker, &mesh), LIMN_BAKE_OK);
+            CHECK_EQUAL(limn_baker_finish(baker, &blob, &size), LIMN_BAKE_OK);
+            CHECK_EQUAL(limn_pack_open(&pack, blob, size), LIMN_OK);
+            const bool corners = (option == 0 ? asked : option) == 2;
+            CHECK_CONTAINS(pack.info, corners ? "boundary=edge-and-corner" : "boundary=edge-only");
+            limn_baker_destroy(baker);
+        }
+    }
+}
+
 // ---- The baker's own check
 
 /// Patches that do not agree on an edge must not be written. They always agree; so one is made not
@@ -692,5 +988,12 @@ int main(void) {
     test_polygons();
     test_existing_edges();
     test_triangulation_notes();
+    test_tags();
+    test_ignored_tags();
+    test_tags_follow_repairs();
+    test_tags_follow_splits();
+    test_bad_tags();
+    test_holes();
+    test_boundary_of_mesh();
     return check_report();
 }

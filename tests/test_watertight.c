@@ -21,7 +21,7 @@ typedef struct subject {
     limn_baker *baker;
     limn_pack pack;
     limn_mesh baked;
-    uint32_t *patches;      ///< [face_count] the patch of each face
+    uint32_t *patches;      ///< [face_count] the patch of each face that is not a hole
     float *control_normals; ///< [control_count][3]
 } subject;
 
@@ -41,7 +41,8 @@ static bool load(subject *s, const char *path, uint32_t repair, limn_weights wei
     limni_source source = {0};
     CHECK_EQUAL(limni_read_file(&s->context, path, &source), LIMN_BAKE_OK);
     CHECK_EQUAL(limni_mesh_build(&s->context, &source, &s->mesh), LIMN_BAKE_OK);
-    CHECK_EQUAL(s->mesh.face_count, s->baked.patch_count);
+    CHECK_EQUAL(s->mesh.face_count, s->baked.face_count);
+    CHECK_EQUAL(s->mesh.hole_count, s->baked.face_count - s->baked.patch_count);
     s->patches = limni_allocate(&s->context, s->mesh.face_count, sizeof *s->patches);
     for (uint32_t patch = 0; patch < s->baked.patch_count; patch++)
         s->patches[limn_mesh_face(&s->baked, patch).face] = patch;
@@ -72,6 +73,7 @@ static uint64_t count_differences(const subject *s, uint32_t level, const vertex
     for (uint32_t h = 0; h < 3 * s->mesh.face_count; h++) {
         const uint32_t pair = s->mesh.pairs[h];
         if (pair == LIMNI_NONE || pair < h) continue;
+        if (s->mesh.holes[h / 3] || s->mesh.holes[pair / 3]) continue;
         const uint16_t *const along = rows_along(s, h), *const against = rows_along(s, pair);
         const vertex *const a = vertices + (size_t)s->patches[h / 3] * row_count;
         const vertex *const b = vertices + (size_t)s->patches[pair / 3] * row_count;

@@ -17,11 +17,15 @@ static bool check_bake(limn_bake_status status, const limn_baker *baker) {
     return status == LIMN_BAKE_OK;
 }
 
-/// The mesh as the baker has read and mended it, in the order of the file.
+/// The mesh as the baker has read and mended it, in the order of the file. Holes are in no file.
 static bool copy_mesh(peer_scene *scene, const void *blob, size_t blob_size) {
     limn_pack pack;
     if (limn_pack_open(&pack, blob, blob_size) != LIMN_OK) return false;
     const limn_mesh mesh = limn_pack_mesh(&pack, 0);
+    if (mesh.patch_count < mesh.face_count) {
+        fprintf(stderr, "limn-bench: %s has holes, which peers do not\n", mesh.name);
+        return false;
+    }
     snprintf(scene->name, sizeof scene->name, "%s", mesh.name);
     scene->control_count = mesh.control_count;
     scene->face_count = mesh.patch_count;

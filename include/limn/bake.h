@@ -34,11 +34,20 @@ typedef enum limn_weights {
     LIMN_WEIGHTS_WARREN ///< Warren's: 3/8 in all on the neighbours, 9/16 at valence 3
 } limn_weights;
 
-/// What happens at boundary vertices. Boundary edges always give cubic B-spline curves.
+/// What happens at the boundary. Boundary edges give cubic B-spline curves.
 typedef enum limn_boundary {
-    LIMN_BOUNDARY_EDGE_ONLY,      ///< corners of the boundary are rounded
-    LIMN_BOUNDARY_EDGE_AND_CORNER ///< a boundary vertex with a single face stays where it is
+    LIMN_BOUNDARY_DEFAULT,         ///< what the mesh or its file asks for; otherwise edge-only
+    LIMN_BOUNDARY_EDGE_ONLY,       ///< corners of the boundary are rounded
+    LIMN_BOUNDARY_EDGE_AND_CORNER, ///< a boundary vertex with a single face stays where it is
+    LIMN_BOUNDARY_NONE             ///< no boundary curves; not supported yet: as edge-only
 } limn_boundary;
+
+/// How the sharpness of an edge passes on to its halves, level by level.
+typedef enum limn_creasing {
+    LIMN_CREASING_DEFAULT, ///< what the mesh or its file asks for; otherwise uniform
+    LIMN_CREASING_UNIFORM, ///< it falls by 1
+    LIMN_CREASING_CHAIKIN  ///< it is first averaged with that of the creases it meets
+} limn_creasing;
 
 /// What is stored for normals.
 typedef enum limn_normals {
@@ -73,7 +82,10 @@ typedef struct limn_bake_desc {
     void *user; ///< passed to the callbacks
 } limn_bake_desc;
 
-/// A polygon mesh in memory.
+/// A polygon mesh in memory, with what OpenSubdiv calls tags. Zero stands for no tags.
+///
+/// Sharpness is 0 (smooth) or more, by level; from 10 on, infinity included, it is for ever. Of
+/// several tags of one edge or vertex the last one counts.
 typedef struct limn_bake_mesh {
     const char *name;
     const float *positions; ///< [position_count][3], model units
@@ -82,6 +94,14 @@ typedef struct limn_bake_mesh {
     uint32_t face_count;
     const uint32_t
         *face_indices; ///< the corners of all faces, one after the other, counter-clockwise
+    const uint32_t *crease_edges;   ///< [crease_count][2] the ends of edges of faces
+    const float *crease_sharpness;  ///< [crease_count]
+    const uint32_t *sharp_vertices; ///< [sharp_vertex_count]
+    const float *vertex_sharpness;  ///< [sharp_vertex_count]
+    const uint32_t *holes; ///< [hole_count] faces that shape their neighbours but are not drawn
+    uint32_t crease_count, sharp_vertex_count, hole_count;
+    limn_boundary boundary; ///< asked for, unless limn_bake_desc says otherwise
+    limn_creasing creasing; ///< likewise
 } limn_bake_mesh;
 
 typedef struct limn_baker limn_baker;
@@ -95,7 +115,8 @@ void limn_baker_destroy(limn_baker *baker);
 /// be destroyed.
 limn_bake_status limn_baker_add_file(limn_baker *baker, const char *path);
 
-/// Adds a mesh from memory, copying it. Errors name faces and vertices by index from 0.
+/// Adds a mesh from memory, copying it. Errors name faces and vertices by index from 0. Tags of
+/// edges, vertices and faces that are not there are ignored, with a note.
 limn_bake_status limn_baker_add_mesh(limn_baker *baker, const limn_bake_mesh *mesh);
 
 /// Bakes all meshes into one blob that belongs to the baker, 64-byte aligned. It is valid until a

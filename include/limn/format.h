@@ -142,8 +142,8 @@ typedef struct limn_file_mesh {
     uint64_t index_count; ///< entries of the indices chunk
     float bounds_min[3];  ///< of the control points that faces use, in the bind pose
     float bounds_max[3];
-    float origin[3]; ///< see limn_mesh.origin
-    uint32_t reserved;
+    float origin[3];     ///< see limn_mesh.origin
+    uint32_t hole_count; ///< base faces without a patch
 } limn_file_mesh;
 
 /// Consecutive patches of one class. Patch p of the run has its control indices, by slot, at

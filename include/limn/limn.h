@@ -230,7 +230,8 @@ typedef struct limn_mesh {
     const limn_domain *domain;
     const float *controls; ///< [control_count][3]: the bind pose, model units
     uint32_t control_count;
-    uint32_t patch_count; ///< one per base face
+    uint32_t patch_count; ///< one per base face that is drawn
+    uint32_t face_count;  ///< base faces, with the holes, which are not drawn
     uint32_t run_count;   ///< patches are ordered by class: runs of one class each
     float bounds_min[3];  ///< of the control points that faces use, in the bind pose
     float bounds_max[3];
@@ -264,7 +265,7 @@ limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index);
 
 /// The base face that a patch draws.
 typedef struct limn_patch_face {
-    uint32_t face; ///< index of the face in the triangulated source mesh
+    uint32_t face; ///< index of the face in the triangulated source mesh, < mesh->face_count
     uint32_t
         rotation; ///< corner c of the patch is corner (c + rotation) mod corner_count of the face
 } limn_patch_face;

@@ -51,7 +51,8 @@ static bool compare(const char *path, const limn_bake_desc *desc) {
 }
 
 static void visit(const char *path) {
-    const limn_bake_desc strict = {.normals = LIMN_NORMALS_EXACT};
+    const limn_bake_desc strict = {.boundary = LIMN_BOUNDARY_EDGE_ONLY,
+                                   .normals = LIMN_NORMALS_EXACT};
     const limn_bake_desc corners = {.boundary = LIMN_BOUNDARY_EDGE_AND_CORNER,
                                     .normals = LIMN_NORMALS_EXACT};
     const limn_bake_desc repaired = {.repair = LIMN_REPAIR_ALL, .normals = LIMN_NORMALS_EXACT};

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT */
+/* Appends to a source, for readers that do not know how much there will be. */
+#ifndef LIMNI_SOURCE_BUILDER_H
+#define LIMNI_SOURCE_BUILDER_H
+
+#include "source.h"
+
+typedef struct limni_source_builder {
+    limni_context *context;
+    limni_source *source;
+    uint32_t corner_count; ///< of all faces, with the one that is being built
+    size_t positions_room, faces_room, corners_room; ///< in items, as the next ones
+    size_t creases_room, sharp_vertices_room, holes_room;
+} limni_source_builder;
+
+/// Starts with an empty source, but for its name and path.
+limni_source_builder limni_builder_begin(limni_context *context, limni_source *source);
+
+/// Each fails with LIMN_BAKE_MEMORY only. Counts must stay below 2^32: files are shorter.
+limn_bake_status limni_builder_add_position(limni_source_builder *builder, const float position[3],
+                                            uint32_t line);
+limn_bake_status limni_builder_add_crease(limni_source_builder *builder, limni_crease crease);
+limn_bake_status limni_builder_add_sharp_vertex(limni_source_builder *builder,
+                                                limni_sharp_vertex vertex);
+limn_bake_status limni_builder_add_hole(limni_source_builder *builder, limni_hole hole);
+
+/// A face is built of its corners, in order, and then ended.
+limn_bake_status limni_builder_add_corner(limni_source_builder *builder, uint32_t position);
+limn_bake_status limni_builder_end_face(limni_source_builder *builder, uint32_t line);
+
+/// Corners since the last face was ended.
+uint32_t limni_builder_face_size(const limni_source_builder *builder);
+
+#endif
