@@ -3,6 +3,8 @@
 #ifndef BENCH_H
 #define BENCH_H
 
+#include "output_file.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -23,9 +25,13 @@ double bench_seconds(void);
 /// The median; reorders the values.
 double bench_median(double *values, int count);
 
-/// Whether results can be written to `path`, known before they are measured; says so if not. NULL:
-/// none are asked for.
-bool bench_is_writable(const char *path);
+/// A file for results, opened before they are measured and renamed when they are complete. Without
+/// a path there is none, and no stream. Both say what went wrong.
+///
+/// good  false: what was at the path stays
+/// Returns whether all is well.
+bool bench_results_open(limni_output_file *file, const char *path);
+bool bench_results_close(limni_output_file *file, const char *path, bool good);
 
 /// For limn_bake_desc.note: what was repaired, on standard error.
 void bench_note(void *user, const char *text);

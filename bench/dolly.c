@@ -7,6 +7,7 @@
 #include "drawn.h"
 #include "lods.h"
 #include "mixes.h"
+#include "numbers.h"
 
 #include <getopt.h>
 #include <math.h>
@@ -35,8 +36,8 @@ static const char help[] =
 
 typedef struct options {
     limn_lod_desc desc;
-    double from, to;
-    long frames;
+    float from, to;
+    uint32_t frames;
 } options;
 
 /// A mesh and two frames of it, in turn the newer one.
@@ -72,9 +73,9 @@ static limn_view view_from(const limn_mesh *mesh, double diagonals) {
 }
 
 /// One frame with and without morphing, compared with the one before.
-static void print_frame(dolly with[2], const options *o, long frame) {
+static void print_frame(dolly with[2], const options *o, uint32_t frame) {
     const double along = (double)frame / (double)(o->frames - 1);
-    const double diagonals = o->from * pow(o->to / o->from, along);
+    const double diagonals = (double)o->from * pow((double)o->to / (double)o->from, along);
     const limn_view view = view_from(&with[0].drawn.mesh, diagonals);
     drawn_motion motions[2];
     for (int k = 0; k < 2; k++) {
@@ -85,7 +86,7 @@ static void print_frame(dolly with[2], const options *o, long frame) {
         if (frame > 0) motions[k] = drawn_move(&with[k].frames[1 - frame % 2], now);
     }
     if (frame == 0) return;
-    printf("%ld,%.5g,%llu,%.5f,%.5f,%.5f,%.5f\n", frame, diagonals,
+    printf("%u,%.5g,%llu,%.5f,%.5f,%.5f,%.5f\n", frame, diagonals,
            (unsigned long long)with[0].frames[frame % 2].plan.vertex_count, motions[0].pixels,
            motions[0].bound, motions[0].seam_pixels,
            fmax(motions[1].pixels, motions[1].seam_pixels));
@@ -104,19 +105,12 @@ static bool run(const options *o, const char *path) {
         bench_print_conditions(stdout);
         puts("frame,distance,vertices,movement,bound,seams,no_morph");
     }
-    for (long frame = 0; frame < o->frames && good; frame++)
+    for (uint32_t frame = 0; frame < o->frames && good; frame++)
         print_frame(with, o, frame);
     destroy(&with[0]);
     destroy(&with[1]);
     bench_mix_destroy(&mix);
     return good && fflush(stdout) == 0;
-}
-
-/// A number above 0, or 0.
-static double read_positive(const char *text) {
-    char *end;
-    const double value = strtod(text, &end);
-    return *end || !isfinite(value) || value < 0 ? 0 : value;
 }
 
 static bool parse_option(int option, options *to) {
@@ -127,16 +121,15 @@ static bool parse_option(int option, options *to) {
         if (lod) to->desc.lod = lod->desc.lod;
         return lod != NULL;
     case 'p':
-        return (to->desc.pixels = (float)read_positive(optarg)) > 0;
+        return limni_parse_real(optarg, 1e-6f, 1e6f, &to->desc.pixels);
     case 'm':
-        return (to->desc.min_level = (float)read_positive(optarg)) > 0 &&
-               to->desc.min_level <= LIMN_LEVEL_MAX;
+        return limni_parse_real(optarg, 0, LIMN_LEVEL_MAX, &to->desc.min_level);
     case 'f':
-        return (to->from = read_positive(optarg)) > 0;
+        return limni_parse_real(optarg, 1e-3f, 1e6f, &to->from);
     case 't':
-        return (to->to = read_positive(optarg)) > 0;
+        return limni_parse_real(optarg, 1e-3f, 1e6f, &to->to);
     case 'n':
-        return (to->frames = (long)read_positive(optarg)) >= 2;
+        return limni_parse_number(optarg, 1000000, &to->frames) && to->frames >= 2;
     default:
         return false;
     }

@@ -372,9 +372,7 @@ static void print_mix(const session *s, const mix *m, const struct output_kind *
     }
 }
 
-static bool write_csv(const session *s) {
-    FILE *const file = fopen(s->options.csv, "w");
-    if (!file) return false;
+static void write_csv(const session *s, FILE *file) {
     fprintf(file, "# ");
     bench_print_conditions(file);
     fprintf(file, "mesh,output,isa,family,order,tables,level,ns_per_patch,vertices_per_second,"
@@ -390,8 +388,6 @@ static bool write_csv(const session *s) {
                 c->median.multiply_adds / c->median.seconds, compute_share(c),
                 c->median.bytes / c->median.seconds, store_share(c));
     }
-    const bool failed = ferror(file);
-    return fclose(file) == 0 && !failed;
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -488,7 +484,8 @@ static void destroy(session *s) {
     free(s->buffer);
 }
 
-static bool run(session *s, char **paths, int path_count) {
+/// csv  NULL: none
+static bool run(session *s, char **paths, int path_count, FILE *csv) {
     s->buffer = aligned_alloc(4096, s->options.buffer_size);
     add_variants(s);
     if (!s->buffer || s->variant_count == 0) {
@@ -507,9 +504,8 @@ static bool run(session *s, char **paths, int path_count) {
             if (s->options.output_mask >> o & 1) print_mix(s, &s->mixes[m], &outputs[o]);
         }
     }
-    if (!s->options.csv || write_csv(s)) return true;
-    fprintf(stderr, "limn-bench: cannot write '%s'\n", s->options.csv);
-    return false;
+    if (csv) write_csv(s, csv);
+    return true;
 }
 
 /// The name of a bit in an option's list; NULL behind the last.
@@ -598,8 +594,9 @@ int bench_kernels(int argc, char **argv) {
             return 2;
         }
     }
-    if (!bench_is_writable(s.options.csv)) return 1;
-    const bool good = run(&s, argv + optind, argc - optind);
+    limni_output_file csv;
+    if (!bench_results_open(&csv, s.options.csv)) return 1;
+    const bool good = run(&s, argv + optind, argc - optind, csv.stream);
     destroy(&s);
-    return good ? 0 : 1;
+    return bench_results_close(&csv, s.options.csv, good) ? 0 : 1;
 }

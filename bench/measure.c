@@ -24,10 +24,21 @@ double bench_median(double *values, int count) {
     return count % 2 ? values[count / 2] : (values[count / 2 - 1] + values[count / 2]) / 2;
 }
 
-bool bench_is_writable(const char *path) {
-    FILE *const file = path ? fopen(path, "a") : NULL;
-    if (!path || (file && fclose(file) == 0)) return true;
-    fprintf(stderr, "limn-bench: cannot write '%s'\n", path);
+bool bench_results_open(limni_output_file *file, const char *path) {
+    *file = (limni_output_file){0};
+    if (!path || limni_output_open(file, path)) return true;
+    fprintf(stderr, "limn-bench: %s: %s\n", path, file->error);
+    return false;
+}
+
+bool bench_results_close(limni_output_file *file, const char *path, bool good) {
+    if (!file->stream) return good;
+    if (!good) {
+        limni_output_abandon(file);
+        return false;
+    }
+    if (limni_output_commit(file)) return true;
+    fprintf(stderr, "limn-bench: %s: %s\n", path, file->error);
     return false;
 }
 

@@ -4,6 +4,7 @@
  * in interleaved rounds within one process.
  */
 #include "bench.h"
+#include "numbers.h"
 #include "peers/allocate.h"
 #include "peers/peer.h"
 #include "peers/report.h"
@@ -220,14 +221,9 @@ static bool bench_mesh(const char *path, const peers_options *options, peer_resu
 
 /// Returns false when `text` is not a number in the range.
 static bool read_number(const char *text, uint32_t low, uint32_t high, uint32_t *number) {
-    char *end;
-    const unsigned long value = strtoul(text, &end, 10);
-    if (*text < '0' || *text > '9' || *end || value < low || value > high) {
-        fprintf(stderr, "limn-bench: '%s' is not a number from %u to %u\n", text, low, high);
-        return false;
-    }
-    *number = (uint32_t)value;
-    return true;
+    if (limni_parse_number(text, high, number) && *number >= low) return true;
+    fprintf(stderr, "limn-bench: '%s' is not a number from %u to %u\n", text, low, high);
+    return false;
 }
 
 static uint32_t count_processors(void) {
@@ -279,7 +275,12 @@ int bench_peers(int argc, char **argv) {
     peers_options options = {.rounds = 15, .level = LIMN_LEVEL_MAX, .threads = count_processors()};
     const int status = read_options(argc, argv, &options);
     if (status >= 0) return status;
-    if (!bench_is_writable(options.json_path) || !bench_is_writable(options.csv_path)) return 1;
+    limni_output_file json, csv;
+    if (!bench_results_open(&json, options.json_path)) return 1;
+    if (!bench_results_open(&csv, options.csv_path)) {
+        bench_results_close(&json, options.json_path, false);
+        return 1;
+    }
 
     bench_print_conditions(stdout);
     peer_result *const results =
@@ -289,10 +290,10 @@ int bench_peers(int argc, char **argv) {
     for (int i = optind; i < argc; i++)
         good &= bench_mesh(argv[i], &options, results, &count);
     report_print_notes();
-    if (options.json_path)
-        good &= report_write_json(options.json_path, results, count, options.rounds);
-    if (options.csv_path)
-        good &= report_write_csv(options.csv_path, results, count, options.rounds);
+    if (json.stream) good &= report_write_json(json.stream, results, count, options.rounds);
+    if (csv.stream) report_write_csv(csv.stream, results, count, options.rounds);
+    good = bench_results_close(&json, options.json_path, good);
+    good = bench_results_close(&csv, options.csv_path, good);
     free(results);
     return good ? 0 : 1;
 }

@@ -8,6 +8,7 @@
 #include "frames.h"
 #include "lods.h"
 #include "mixes.h"
+#include "numbers.h"
 #include "peers/allocate.h"
 #include "peers/team.h"
 
@@ -329,21 +330,11 @@ static bool bench_mesh(session *s, const char *path) {
     return good;
 }
 
-static bool open_csv(session *s) {
-    if (!s->options.csv) return true;
-    s->csv = fopen(s->options.csv, "w");
-    if (!s->csv) return false;
-    fprintf(s->csv, "# ");
-    bench_print_conditions(s->csv);
-    fprintf(s->csv, "mesh,frame,output,threads,faces,drawn,level,vertices,evaluate_ns_per_patch,"
-                    "evaluate_ns_per_vertex,plan_ns_per_face,plan_share,speed_up\n");
-    return true;
-}
-
-static bool close_csv(session *s) {
-    if (!s->csv) return true;
-    const bool failed = ferror(s->csv);
-    return fclose(s->csv) == 0 && !failed;
+static void write_head(FILE *csv) {
+    fprintf(csv, "# ");
+    bench_print_conditions(csv);
+    fprintf(csv, "mesh,frame,output,threads,faces,drawn,level,vertices,evaluate_ns_per_patch,"
+                 "evaluate_ns_per_vertex,plan_ns_per_face,plan_share,speed_up\n");
 }
 
 static void create_buffers(session *s) {
@@ -361,10 +352,10 @@ static void destroy_buffers(session *s) {
 }
 
 static bool run(session *s, char **paths, int path_count) {
-    if (!open_csv(s)) {
-        fprintf(stderr, "limn-bench: cannot write '%s'\n", s->options.csv);
-        return false;
-    }
+    limni_output_file csv;
+    if (!bench_results_open(&csv, s->options.csv)) return false;
+    s->csv = csv.stream;
+    if (s->csv) write_head(s->csv);
     create_buffers(s);
     bench_print_conditions(stdout);
     printf("%d rounds; tolerance %g pixels; vertices go to buffers of %zu KiB\n", s->options.rounds,
@@ -373,22 +364,19 @@ static bool run(session *s, char **paths, int path_count) {
     for (int p = 0; p < path_count; p++)
         good &= bench_mesh(s, paths[p]);
     destroy_buffers(s);
-    if (close_csv(s)) return good;
-    fprintf(stderr, "limn-bench: cannot write '%s'\n", s->options.csv);
-    return false;
+    return bench_results_close(&csv, s->options.csv, good);
 }
 
 /// A number in the range, or 0.
 static uint32_t read_number(const char *text, uint32_t low, uint32_t high) {
-    char *end;
-    const unsigned long value = strtoul(text, &end, 10);
-    return *text < '0' || *text > '9' || *end || value < low || value > high ? 0 : (uint32_t)value;
+    uint32_t value;
+    return limni_parse_number(text, high, &value) && value >= low ? value : 0;
 }
 
 static bool parse_option(int option, options *to) {
     switch (option) {
     case 'p':
-        return (to->pixels = strtof(optarg, NULL)) > 0 && isfinite(to->pixels);
+        return limni_parse_real(optarg, 1e-6f, 1e6f, &to->pixels);
     case 'f':
         to->fast = true;
         return true;

@@ -5,20 +5,6 @@
 #include "edge_error.h"
 
 #include <math.h>
-#include <string.h>
-
-/// log2 within 0.008: continuous and rising, which is all that levels need, and quicker than
-/// libm's. x: not negative.
-static inline float find_log2(float x) {
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    const float exponent = (float)((int32_t)(bits >> 23) - 127);
-    bits = (bits & 0x7fffffu) | 0x3f800000u;
-    float mantissa;
-    memcpy(&mantissa, &bits, sizeof mantissa);
-    const float t = mantissa - 1.0f;
-    return exponent + t + 0.3466f * t * (1.0f - t);
-}
 
 static inline float square(float a) {
     return a * a;
@@ -48,7 +34,7 @@ static void add_view(const limn_view *view, const float a[3][LIMNI_LOD_BLOCK],
 static void find_length_levels(const limn_lod_desc *desc, float levels[LIMNI_LOD_BLOCK]) {
     const float scale = 1.0f / square(desc->pixels), bias = desc->bias;
     for (int i = 0; i < LIMNI_LOD_BLOCK; i++)
-        levels[i] = 0.5f * find_log2(levels[i] * scale) + bias;
+        levels[i] = 0.5f * limni_log2(levels[i] * scale) + bias;
 }
 
 /// Unpacked first, as tables cannot be read by vectors.

@@ -212,6 +212,7 @@ static void finish_patches(const planner *p, float lowered, limn_plan *plan) {
         for (uint32_t i = 0; i < count_in_block(p, first); i++) {
             limn_plan_patch *const item = &p->patches[first + i];
             const uint32_t level = (uint32_t)choice.levels[i];
+            item->reserved = 0;
             set_patch(&choice, i, item);
             item->template_index = (uint16_t)(first_templates[level] + (uint32_t)choice.places[i]);
             item->first_vertex = (uint32_t)plan->vertex_count;
@@ -291,7 +292,7 @@ limn_plan limn_plan_build(const limn_mesh *mesh, const float *controls, const li
     list_patches(&p);
     limn_plan plan = {.mesh = mesh, .patch_count = p.patch_count, .patches = p.patches};
     finish_patches(&p, find_lowering(&p), &plan);
-    LIMNI_REQUIRE(plan.vertex_count <= INT32_MAX, (limn_plan){0});
+    if (plan.vertex_count > INT32_MAX) return (limn_plan){0};
     if (templates) make_draws(&p, templates, draws, &plan);
     return plan;
 }

@@ -144,6 +144,8 @@ static inline void morph_level(const limn_domain *domain, const limn_plan_patch 
     const size_t begin = domain->row_counts[item->level - 1] / LANES_WIDTH * LANES_WIDTH;
     const size_t end = domain->row_counts[item->level];
     if (!set_weights(domain, item, begin, weights)) return;
+    for (int axis = 0; axis < 3; axis++)
+        lanes_store(&sums.axes[axis][(end - 1) / LANES_WIDTH * LANES_WIDTH], lanes_zero());
     add_sources(domain, rows, begin, end, &sums);
     for (size_t row = begin; row < end; row += LANES_WIDTH) {
         const lanes weight = lanes_load_any(weights + row), one = lanes_splat(1.0f);

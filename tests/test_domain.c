@@ -45,6 +45,11 @@ static void test_parents(void) {
         const limn_row a = domain->rows[r.parents[0]], b = domain->rows[r.parents[1]];
         CHECK(2 * r.i == a.i + b.i && 2 * r.j == a.j + b.j);
         CHECK(r.level == 0 ? r.parents[0] == row : a.level < r.level && b.level < r.level);
+        const bool has_elder = r.edges && r.level > 1; // then one parent is the elder
+        const uint16_t elder = a.level < b.level ? r.parents[0] : r.parents[1];
+        CHECK_EQUAL(r.sources[0], has_elder ? elder : r.parents[0]);
+        CHECK_EQUAL(r.sources[1], has_elder ? elder : r.parents[1]);
+        CHECK(!has_elder || a.level != b.level);
         // The parents are joined by an edge of the level before: their own direction, one step
         // long.
         const int step = r.level ? LIMN_GRID_SIZE >> (r.level - 1) : 0;

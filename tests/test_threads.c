@@ -163,7 +163,7 @@ static bool open_mesh(const char *path, limni_blob_file *file) {
     mesh = limn_pack_mesh(&pack, 0);
     control_normals = malloc(mesh.control_count * 3 * sizeof(float));
     for (uint32_t p = 0; p < sizeof plans / sizeof *plans; p++) {
-        memories[p] = calloc(1, limn_plan_size(&mesh));
+        memories[p] = malloc(limn_plan_size(&mesh));
         if (!memories[p]) return false;
     }
     if (!control_normals || !mesh.normals) return false;

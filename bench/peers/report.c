@@ -91,22 +91,15 @@ static json_t *make_conditions(uint32_t rounds) {
                      opensubdiv_note);
 }
 
-static bool fail_to_write(const char *path) {
-    fprintf(stderr, "limn-bench: cannot write %s: %s\n", path, strerror(errno));
-    return false;
-}
-
-bool report_write_json(const char *path, const peer_result *results, uint32_t count,
-                       uint32_t rounds) {
+bool report_write_json(FILE *file, const peer_result *results, uint32_t count, uint32_t rounds) {
     json_t *const array = json_array();
     for (uint32_t r = 0; r < count; r++)
         json_array_append_new(array, make_result(&results[r]));
     json_t *const root =
         json_pack("{so so}", "conditions", make_conditions(rounds), "results", array);
-    const bool good =
-        root && json_dump_file(root, path, JSON_INDENT(2) | JSON_REAL_PRECISION(6)) == 0;
+    const bool good = root && json_dumpf(root, file, JSON_INDENT(2) | JSON_REAL_PRECISION(6)) == 0;
     json_decref(root);
-    return good || fail_to_write(path);
+    return good;
 }
 
 static void write_number(FILE *file, double value) {
@@ -128,10 +121,7 @@ static void write_line(FILE *file, const peer_result *result) {
     fputc('\n', file);
 }
 
-bool report_write_csv(const char *path, const peer_result *results, uint32_t count,
-                      uint32_t rounds) {
-    FILE *const file = fopen(path, "w");
-    if (!file) return fail_to_write(path);
+void report_write_csv(FILE *file, const peer_result *results, uint32_t count, uint32_t rounds) {
     char cpu[128];
     bench_cpu_name(cpu, sizeof cpu);
     fprintf(file, "# commit %s, %s, flags %s, CPU %s, %u rounds; %s\n", BENCH_COMMIT,
@@ -140,6 +130,4 @@ bool report_write_csv(const char *path, const peer_result *results, uint32_t cou
                   "ratio_to_limn,bytes_per_face,build_ms,load_ms,largest_difference\n");
     for (uint32_t r = 0; r < count; r++)
         write_line(file, &results[r]);
-    const bool good = !ferror(file);
-    return (fclose(file) == 0 && good) || fail_to_write(path);
 }

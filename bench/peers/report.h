@@ -24,10 +24,8 @@ void report_print(const peer_result *result);
 /// What the columns mean, after the table.
 void report_print_notes(void);
 
-/// False after a message.
-bool report_write_json(const char *path, const peer_result *results, uint32_t count,
-                       uint32_t rounds);
-bool report_write_csv(const char *path, const peer_result *results, uint32_t count,
-                      uint32_t rounds);
+/// False when out of memory, or when the stream fails.
+bool report_write_json(FILE *file, const peer_result *results, uint32_t count, uint32_t rounds);
+void report_write_csv(FILE *file, const peer_result *results, uint32_t count, uint32_t rounds);
 
 #endif

@@ -98,10 +98,9 @@ typedef struct limn_row {
     uint8_t edges;       ///< bit e: the row lies on edge e, from corner e to corner e + 1
     uint16_t parents[2]; ///< the rows of the level before between which it appears; itself, twice,
                          ///< at level 0
-    uint16_t
-        sources[2];  ///< in whose middle it is drawn as its level begins: its parents; but on an
-                     ///< edge, from level 2 on, twice its elder, the parent of the lower level
-    uint16_t mirror; ///< the row at (j, i)
+    uint16_t sources[2]; ///< in whose middle it is drawn as its level begins: its parents; on an
+                         ///< edge, from level 2 on, twice its elder: the parent of the lower level
+    uint16_t mirror;     ///< the row at (j, i)
 } limn_row;
 
 /// The rows of one edge along its direction.
@@ -285,14 +284,15 @@ void limn_mesh_corners(const limn_mesh *mesh, uint32_t patch_index,
 
 /// One patch of a plan with levels of detail. The level of an edge is a real number l between 0 and
 /// 4, which follows from the edge alone; n = ceil(l) levels are drawn of it, and what is new at
-/// level n is on its way from the middle of its parents (weight 0) to its place (1): at l - (n -
-/// 1). A patch has the highest level of its edges, and its weight.
+/// level n is on its way from the middle of its sources (weight 0, see limn_row) to its place (1):
+/// at l - (n - 1). A patch has the highest level of its edges, and its weight.
 typedef struct limn_plan_patch {
     uint32_t patch;          ///< of the mesh
     uint32_t first_vertex;   ///< in the output: the base vertex to draw its template with
     uint16_t template_index; ///< see limn_template_find()
     uint8_t level;
     uint8_t edge_levels[LIMN_CORNER_MAX]; ///< n, by edges of the patch
+    uint8_t reserved;                     ///< 0
     float edge_morphs[LIMN_CORNER_MAX];   ///< weights
     float morph;
 } limn_plan_patch;
@@ -354,9 +354,10 @@ limn_view limn_view_orthographic(const float eye[3], const float target[3], cons
 typedef enum limn_lod {
     LIMN_LOD_LENGTH,  ///< so that steps along an edge are `pixels` long on the screen
     LIMN_LOD_UNIFORM, ///< `level` everywhere
-    LIMN_LOD_ERROR ///< so that what is drawn is at most `pixels` off the limit surface. The baker
-                   ///< measured the bind pose; since then errors scale with the edges. What
-                   ///< would need more than LIMN_LEVEL_MAX gets that
+    LIMN_LOD_ERROR    ///< so that what is drawn is `pixels` off the limit surface at most; 99 % of
+                      ///< patches keep to that, others nearly (docs/design.md). The baker measured
+                      ///< the bind pose; since then errors scale with the edges. What would need
+                      ///< more than LIMN_LEVEL_MAX gets that
 } limn_lod;
 
 typedef struct limn_lod_desc {
@@ -383,11 +384,12 @@ size_t limn_plan_size(const limn_mesh *mesh);
 /// templates, weights and places. A patch is left out where all its control points are outside of
 /// one plane of every view: the surface lies within their convex hull, so this is exact under
 /// animation too. The result is the same for whichever thread, and depends on nothing else. Does
-/// not allocate, never fails; any thread, with memory of its own.
+/// not allocate; any thread, with memory of its own. A frame of more than INT32_MAX vertices has no
+/// plan: 0 patches.
 ///
 /// controls   [mesh->control_count][3] floats, model units: those that will be evaluated
 /// views      [view_count] 1 to LIMN_VIEW_MAX, in the space of the control points
-/// desc       NULL: all defaults
+/// desc       NULL: all defaults. LIMN_LOD_ERROR needs mesh->errors, which every baked mesh has
 /// templates  [limn_template_count()] as uploaded, for the draws; NULL: no draws are made
 /// memory     [limn_plan_size()] bytes, aligned to 8; the plan points into it
 limn_plan limn_plan_build(const limn_mesh *mesh, const float *controls, const limn_view *views,

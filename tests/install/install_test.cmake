@@ -109,14 +109,19 @@ endforeach()
 # Its own copy: the test changes its meshes.
 set(project "${WORK_DIR}/project")
 file(COPY "${CMAKE_CURRENT_LIST_DIR}/" DESTINATION "${project}")
-# With the example of the README.
+# With the examples of the README.
 file(READ "${SOURCE_DIR}/README.md" text)
+file(WRITE "${project}/readme.c" "")
 string(FIND "${text}" "\n```c\n" start)
-string(SUBSTRING "${text}" ${start} -1 text)
-string(REGEX REPLACE "^\n```c\n" "" text "${text}")
-string(FIND "${text}" "\n```\n" end)
-string(SUBSTRING "${text}" 0 ${end} text)
-file(WRITE "${project}/readme.c" "${text}\n")
+while(NOT start EQUAL -1)
+    string(SUBSTRING "${text}" ${start} -1 text)
+    string(REGEX REPLACE "^\n```c\n" "" text "${text}")
+    string(FIND "${text}" "\n```\n" end)
+    string(SUBSTRING "${text}" 0 ${end} example)
+    file(APPEND "${project}/readme.c" "${example}\n")
+    string(SUBSTRING "${text}" ${end} -1 text)
+    string(FIND "${text}" "\n```c\n" start)
+endwhile()
 set(common -S "${project}" "-DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}"
     "-DCMAKE_C_COMPILER=${CMAKE_C_COMPILER}" "-DCMAKE_C_FLAGS=${CMAKE_C_FLAGS}"
     "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}" "-DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}")

@@ -301,6 +301,67 @@ static reference refer(const made *m, uint32_t c, uint32_t patch, uint32_t row, 
     return (reference){result, bound(terms, paired, magnitude, result)};
 }
 
+/// A tangent of a row, from table 1 or 2, and what its sum may be off by. Rows in the block of an
+/// edge are relative to its end with the lower index, others to the first corner.
+static double refer_tangent(const made *m, uint32_t c, uint32_t patch, uint32_t row, uint32_t table,
+                            double tangent[3]) {
+    const limn_file_class *const class = &m->classes[c];
+    const limni_layout *const order =
+        limni_layout_get(LIMN_DOMAIN_TRIANGLE, true, class->pair_count);
+    const float *const coefficients =
+        m->tables + class->table_offset / sizeof(float) + table * limn_file_table_size(class) / 3;
+    const uint32_t *const indices =
+        m->indices + m->runs[c].first_index + (size_t)patch * class->control_count;
+    const column_place place = place_of_row(order, row);
+    const uint32_t edge = place.at / LIMNI_EDGE_ROWS, end = (edge + 1) % 3;
+    uint32_t near = indices[0];
+    if (edge < 3) near = indices[edge] < indices[end] ? indices[edge] : indices[end];
+    const double sign = place.image && table == 2 ? -1 : 1; // a mirror turns the tangent across
+    double error = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        double magnitude = 0;
+        tangent[axis] = 0;
+        for (uint32_t slot = 0; slot < class->control_count; slot++) {
+            const double coefficient = coefficient_at(class, true, coefficients, row, slot);
+            const double point =
+                (double)(m->controls[indices[slot]][axis] - m->controls[near][axis]);
+            tangent[axis] += sign * coefficient * point;
+            magnitude += (fabs(coefficient) + (place.paired ? 2.0 / class->control_count : 0)) *
+                         fabs(point) * (place.paired ? 2 : 1);
+        }
+        error = fmax(error, bound(class->control_count, place.paired, magnitude, tangent[axis]));
+    }
+    return error;
+}
+
+static double length_of(const double a[3]) {
+    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+}
+
+static void cross_product(const double a[3], const double b[3], double product[3]) {
+    for (int axis = 0; axis < 3; axis++) {
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        product[axis] = a[u] * b[v] - a[v] * b[u];
+    }
+}
+
+/// The normal of a row is that of both tangents, within what their errors may turn it by.
+static void check_normal(const made *m, uint32_t c, uint32_t patch, uint32_t row,
+                         const float *normal) {
+    double along[3], across[3], exact[3], off[3], dot = 0;
+    const double e = refer_tangent(m, c, patch, row, 1, along) / length_of(along);
+    const double f = refer_tangent(m, c, patch, row, 2, across) / length_of(across);
+    const double n[3] = {normal[0], normal[1], normal[2]};
+    cross_product(along, across, exact);
+    cross_product(exact, n, off);
+    for (int axis = 0; axis < 3; axis++)
+        dot += exact[axis] * n[axis];
+    const double sine = length_of(exact) / (length_of(along) * length_of(across));
+    const double allowed = 2 * (e + f) / sine + 1e-6;
+    if (!(allowed < 0.1)) return; // nothing can be said: the tangents are nearly parallel, or 0
+    CHECK(dot > 0 && length_of(off) / length_of(exact) <= allowed);
+}
+
 static void check_row(const made *m, uint32_t c, uint32_t patch, uint32_t row,
                       const float *vertex) {
     for (int axis = 0; axis < 3; axis++) {
@@ -309,15 +370,20 @@ static void check_row(const made *m, uint32_t c, uint32_t patch, uint32_t row,
     }
 }
 
-static void test_precision(made *m, const limn_kernels *kernels) {
+/// Normals only of points whose tangents floats can square.
+static void test_precision(made *m, const limn_kernels *kernels, bool has_normals) {
+    static float normals[CLASSES * PATCHES * 153][3];
     m->mesh.kernels = kernels;
     const limn_plan plan = limn_plan_uniform(&m->mesh, LIMN_LEVEL_MAX);
-    limn_evaluate(&plan, m->controls[0], 0, plan.patch_count, &(limn_output){.vertices = actual});
+    limn_evaluate(
+        &plan, m->controls[0], 0, plan.patch_count,
+        &(limn_output){.vertices = actual, .normals = normals, .control_normals = m->normals[0]});
     for (uint32_t c = 0; c < CLASSES; c++) {
         for (uint32_t patch = 0; patch < PATCHES; patch++) {
             for (uint32_t row = 0; row < 153; row++) {
                 const size_t vertex = ((size_t)c * PATCHES + patch) * 153 + row;
                 check_row(m, c, patch, row, (const float *)(const void *)(actual + 12 * vertex));
+                if (has_normals && row >= 3) check_normal(m, c, patch, row, normals[vertex]);
             }
         }
     }
@@ -529,8 +595,9 @@ static void evaluate_plan(made *m, const limn_kernels *kernels, const limn_plan 
 static void test_plans(made *m, const limn_kernels *kernels) {
     static limn_plan_patch items[PATCH_TOTAL];
     for (int round = 0; round < 8; round++) {
-        const layout l = round % 2 ? layouts[next_random() % LAYOUTS]
-                                   : (layout){.stride = 24, .normal_offset = 12};
+        const layout l = round % 3 == 0   ? (layout){.stride = 12}
+                         : round % 3 == 1 ? (layout){.stride = 24, .normal_offset = 12}
+                                          : layouts[next_random() % LAYOUTS];
         const limn_plan plan = make_plan(m, items);
         const uint32_t begin = next_random() % plan.patch_count;
         const uint32_t end = begin + next_random() % (plan.patch_count - begin + 1);
@@ -539,6 +606,31 @@ static void test_plans(made *m, const limn_kernels *kernels) {
         const size_t size = (size_t)plan.vertex_count * l.stride + 2 * GUARD;
         CHECK(kernels->family == LIMN_FAMILY_FAST || memcmp(expected, actual, size) == 0);
     }
+}
+
+/// The same for all patches, with levels and weights that are always the same, as a golden value.
+static void test_golden_plan(made *m, const limn_kernels *kernels) {
+    static const uint64_t golden = 0x7c1e9b383fdd636bu;
+    static limn_plan_patch items[PATCH_TOTAL];
+    limn_plan plan = {.mesh = &m->mesh, .patches = items, .patch_count = PATCH_TOTAL};
+    for (uint32_t patch = 0; patch < PATCH_TOTAL; patch++) {
+        limn_plan_patch *const item = &items[patch];
+        *item = (limn_plan_patch){.patch = patch,
+                                  .level = (uint8_t)(patch % LIMN_LEVEL_COUNT),
+                                  .first_vertex = (uint32_t)plan.vertex_count,
+                                  .morph = (float)(patch % 7) / 6};
+        for (uint32_t e = 0; e < 3; e++) {
+            item->edge_levels[e] = (uint8_t)((patch / 2 + e) % (item->level + 1u));
+            item->edge_morphs[e] = (float)((patch + e) % 5) / 4;
+        }
+        plan.vertex_count += m->mesh.domain->row_counts[item->level];
+    }
+    const layout l = {.stride = 24, .normal_offset = 12};
+    evaluate_plan(m, kernels, &plan, &l, 0, plan.patch_count, actual);
+    const uint64_t hash = limni_checksum(actual + GUARD, (size_t)plan.vertex_count * l.stride);
+    if (!CHECK(hash == golden))
+        fprintf(stderr, "    %s: plan: 0x%016llx\n", limn_kernels_name(kernels),
+                (unsigned long long)hash);
 }
 
 /// Packed normals, unpacked, are near the floats: half a step in each coordinate is sqrt(18) of
@@ -649,9 +741,12 @@ static void test_kernels(made *m, const limn_kernels *kernels, point_kind kind, 
         test_not_finite(m, kernels);
         return;
     }
-    if (kind == RANDOM && kernels->family == LIMN_FAMILY_REPRODUCIBLE) test_golden(m, kernels);
+    if (kind == RANDOM && kernels->family == LIMN_FAMILY_REPRODUCIBLE) {
+        test_golden(m, kernels);
+        test_golden_plan(m, kernels);
+    }
     if (golden) return;
-    test_precision(m, kernels);
+    test_precision(m, kernels, kind == RANDOM);
     test_ranges(m, kernels);
     test_split(m, kernels);
     test_prefix(m, kernels);
