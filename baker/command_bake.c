@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "command.h"
+#include "output_file.h"
 
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -143,12 +143,6 @@ static bool is_mesh_name(const char *path) {
     return false;
 }
 
-static bool is_same_file(const char *a, const char *b) {
-    struct stat first, second;
-    return stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev &&
-           first.st_ino == second.st_ino;
-}
-
 static void print_summary(const char *path, const void *blob, size_t size) {
     limn_pack pack;
     if (limn_pack_open(&pack, blob, size) != LIMN_OK)
@@ -184,7 +178,7 @@ int limni_command_bake(int argc, char **argv) {
         return limni_usage_error("bake", "%s: the output is a .limn file, not a mesh",
                                  given.output);
     for (int i = optind; i < argc; i++) {
-        if (is_same_file(argv[i], given.output))
+        if (limni_is_same_file(argv[i], given.output))
             return limni_usage_error("bake", "%s is input and output", argv[i]);
     }
     given.desc.note = print_note;

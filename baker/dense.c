@@ -33,7 +33,7 @@ static place place_of(const limn_domain *domain, const uint32_t *corners, uint32
 /// The vertex at the same place with the same bits, or where a new one goes.
 static uint32_t *find_place(const place_table *table, const limni_dense *dense, place at,
                             const float position[3]) {
-    uint64_t hash = limni_hash_mix(limni_hash_mix(at.a, at.b), at.step);
+    uint64_t hash = limni_hash_mix(limni_hash_mix(limni_hash_mix(0, at.a), at.b), at.step);
     for (;; hash++) {
         uint32_t *const found = &table->vertices[hash & (table->size - 1)];
         if (*found == LIMNI_NONE) return found;

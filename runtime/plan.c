@@ -3,6 +3,7 @@
 #include "mesh.h"
 #include "require.h"
 
+#include <math.h>
 #include <string.h>
 
 limn_plan limn_plan_uniform(const limn_mesh *mesh, uint32_t level) {
@@ -177,9 +178,9 @@ static float find_lowering(const planner *p) {
     const uint64_t budget = p->desc.vertex_budget;
     if (budget == 0 || count_vertices(p, 0) <= budget) return 0;
     float low = 0, high = 2 * LIMN_LEVEL_MAX;
-    while (count_vertices(p, high) > budget && high < 64)
+    while (count_vertices(p, high) > budget && high < 256)
         high *= 2;
-    for (int step = 0; step < 12; step++) {
+    for (int step = 0; step < 16; step++) {
         const float middle = (low + high) / 2;
         if (count_vertices(p, middle) > budget) {
             low = middle;
@@ -271,6 +272,20 @@ size_t limn_plan_size(const limn_mesh *mesh) {
     return divide_memory(mesh, NULL, NULL).size;
 }
 
+static bool is_valid_view(const limn_view *view) {
+    const float sum = view->eye[0] + view->eye[1] + view->eye[2];
+    return isfinite(sum) && view->pixels > 0 && isfinite(view->pixels) &&
+           (view->orthographic || view->nearest > 0) && view->plane_count <= PLANES;
+}
+
+/// With the defaults filled in.
+static bool is_valid_desc(const limn_mesh *mesh, const limn_lod_desc *desc) {
+    return (unsigned)desc->lod <= LIMN_LOD_ERROR && desc->min_level >= 0 &&
+           desc->max_level <= LIMN_LEVEL_MAX && desc->min_level <= desc->max_level &&
+           desc->pixels > 0 && fabsf(desc->bias) <= 16 && isfinite(desc->level) &&
+           (desc->lod != LIMN_LOD_ERROR || mesh->errors);
+}
+
 limn_plan limn_plan_build(const limn_mesh *mesh, const float *controls, const limn_view *views,
                           uint32_t view_count, const limn_lod_desc *desc,
                           const limn_template *templates, void *memory) {
@@ -283,10 +298,9 @@ limn_plan limn_plan_build(const limn_mesh *mesh, const float *controls, const li
                  .desc = desc ? *desc : (limn_lod_desc){0}};
     if (p.desc.pixels == 0) p.desc.pixels = p.desc.lod == LIMN_LOD_ERROR ? 1 : 8;
     if (p.desc.max_level == 0) p.desc.max_level = LIMN_LEVEL_MAX;
-    LIMNI_REQUIRE(p.desc.min_level >= 0 && p.desc.max_level <= LIMN_LEVEL_MAX &&
-                      p.desc.min_level <= p.desc.max_level && p.desc.pixels > 0 &&
-                      (p.desc.lod != LIMN_LOD_ERROR || mesh->errors),
-                  (limn_plan){0});
+    LIMNI_REQUIRE(is_valid_desc(mesh, &p.desc), (limn_plan){0});
+    for (uint32_t v = 0; v < view_count; v++)
+        LIMNI_REQUIRE(is_valid_view(&views[v]), (limn_plan){0});
     limn_draw *const draws = divide_memory(mesh, memory, &p).draws;
     mark_outside(&p);
     list_patches(&p);

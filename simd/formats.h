@@ -86,10 +86,12 @@ static inline void find_normals(const vectors *across, size_t row, size_t count,
         const lanes root = inverse_root(square);
         const lanes scale = lanes_select_greater(
             square, least, lanes_select_greater(most, square, root, zero), zero);
-        const lanes fallback = lanes_select_greater(scale, zero, zero, one);
-        lanes_store(&along->axes[0][row], lanes_add(lanes_multiply(x, scale), zero));
-        lanes_store(&along->axes[1][row], lanes_add(lanes_multiply(y, scale), zero));
-        lanes_store(&along->axes[2][row], lanes_add(lanes_multiply(z, scale), fallback));
+        const lanes u = lanes_add(lanes_multiply(x, scale), zero);
+        const lanes v = lanes_add(lanes_multiply(y, scale), zero);
+        const lanes w = lanes_add(lanes_multiply(z, scale), zero);
+        lanes_store(&along->axes[0][row], lanes_select_greater(scale, zero, u, zero));
+        lanes_store(&along->axes[1][row], lanes_select_greater(scale, zero, v, zero));
+        lanes_store(&along->axes[2][row], lanes_select_greater(scale, zero, w, one));
     }
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* limn-view: arguments and exit statuses. */
 #include "numbers.h"
+#include "output_file.h"
 #include "picture.h"
 #include "report.h"
 #include "scene.h"
@@ -117,6 +118,8 @@ static bool check_paths(view_picture *picture, char *const *operands, int operan
     if (!picture->png_path) return view_fail("no output given: use --png OUT.png");
     if (!*picture->png_path) return view_fail("--png '': no file name");
     picture->limn_path = operands[0];
+    if (limni_is_same_file(picture->limn_path, picture->png_path))
+        return view_fail("%s is input and output", picture->png_path);
     return true;
 }
 

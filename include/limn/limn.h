@@ -19,7 +19,9 @@
  *
  * Words: a *control point* is a vertex of the base mesh; a *patch* is what is drawn for one base
  * face; a *row* is one vertex of a patch's grid. "Never fails" means: given valid arguments there
- * is no error to report. A caller's mistake is caught by LIMN_ASSERT.
+ * is no error to report. A caller's mistake aborts in debug builds of the library, and in others
+ * returns without doing anything; whoever compiles it with LIMN_ASSERT(condition) defined decides
+ * what happens before.
  */
 #ifndef LIMN_H
 #define LIMN_H
@@ -311,10 +313,11 @@ typedef struct limn_plan {
     uint32_t level;        ///< of uniform plans; of others the highest
     uint32_t patch_count;
     uint64_t vertex_count; ///< of all patches: what the output must hold
-    uint64_t index_count;  ///< of all patches: three per triangle
+    uint64_t index_count;  ///< of all draws; of a uniform plan three for each triangle
     const limn_plan_patch
         *patches;           ///< [patch_count] in the order of the mesh; NULL: a uniform plan
-    const limn_draw *draws; ///< [patch_count] ordered by template; NULL: a uniform plan
+    const limn_draw *draws; ///< [patch_count] ordered by template; NULL: a uniform plan, or
+                            ///< one that was made without templates
 } limn_plan;
 
 /// Every patch of the mesh at one level, 0 to LIMN_LEVEL_MAX. Does not allocate; never fails; any
@@ -335,8 +338,9 @@ typedef struct limn_view {
 
 /// A view from `eye` towards `target`.
 ///
+/// target        not the eye
 /// up            any direction that is not the line of sight
-/// fov           vertical angle of view in radians, 0 to pi
+/// fov           vertical angle of view in radians, between 0 and pi
 /// width,height  of the viewport in pixels
 /// near_plane,
 /// far_plane     distances of the planes that bound it, 0 < near_plane < far_plane
@@ -362,9 +366,10 @@ typedef enum limn_lod {
 
 typedef struct limn_lod_desc {
     limn_lod lod;
-    float level;     ///< LIMN_LOD_UNIFORM: a real number
-    float pixels;    ///< on the screen, above 0: by default 8, with LIMN_LOD_ERROR 1
-    float bias;      ///< added to all levels; with LIMN_LOD_ERROR, -1 is some 4 times the tolerance
+    float level;  ///< LIMN_LOD_UNIFORM: a real number
+    float pixels; ///< on the screen, above 0: by default 8, with LIMN_LOD_ERROR 1
+    float bias;   ///< added to all levels, -16 to 16; with LIMN_LOD_ERROR, -1 is some 4 times the
+                  ///< tolerance
     float min_level; ///< 0 to LIMN_LEVEL_MAX; from 1 on nothing jumps as levels change
     float max_level; ///< the same; default LIMN_LEVEL_MAX
     uint64_t

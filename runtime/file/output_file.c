@@ -97,3 +97,9 @@ void limni_output_abandon(limni_output_file *file) {
     file->stream = NULL;
     file->aside = file->target = NULL;
 }
+
+bool limni_is_same_file(const char *a, const char *b) {
+    struct stat first, second;
+    return stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev &&
+           first.st_ino == second.st_ino;
+}

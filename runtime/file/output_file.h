@@ -17,6 +17,9 @@ typedef struct limni_output_file {
     char error[512]; ///< after a failure: what went wrong, without the path
 } limni_output_file;
 
+/// Whether both paths lead to one file that exists: an output that would replace its own input.
+bool limni_is_same_file(const char *a, const char *b);
+
 /// Opens `file->stream` for writing. After a failure nothing is left to be closed.
 bool limni_output_open(limni_output_file *file, const char *path);
 
