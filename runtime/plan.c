@@ -272,10 +272,12 @@ size_t limn_plan_size(const limn_mesh *mesh) {
     return divide_memory(mesh, NULL, NULL).size;
 }
 
-static bool is_valid_view(const limn_view *view) {
+/// Uniform levels ask for no more than the planes of a view.
+static bool is_valid_view(const limn_view *view, bool uniform) {
     const float sum = view->eye[0] + view->eye[1] + view->eye[2];
-    return isfinite(sum) && view->pixels > 0 && isfinite(view->pixels) &&
-           (view->orthographic || view->nearest > 0) && view->plane_count <= PLANES;
+    if (view->plane_count > PLANES) return false;
+    return uniform || (isfinite(sum) && view->pixels > 0 && isfinite(view->pixels) &&
+                       (view->orthographic || view->nearest > 0));
 }
 
 /// With the defaults filled in.
@@ -300,7 +302,7 @@ limn_plan limn_plan_build(const limn_mesh *mesh, const float *controls, const li
     if (p.desc.max_level == 0) p.desc.max_level = LIMN_LEVEL_MAX;
     LIMNI_REQUIRE(is_valid_desc(mesh, &p.desc), (limn_plan){0});
     for (uint32_t v = 0; v < view_count; v++)
-        LIMNI_REQUIRE(is_valid_view(&views[v]), (limn_plan){0});
+        LIMNI_REQUIRE(is_valid_view(&views[v], p.desc.lod == LIMN_LOD_UNIFORM), (limn_plan){0});
     limn_draw *const draws = divide_memory(mesh, memory, &p).draws;
     mark_outside(&p);
     list_patches(&p);
