@@ -14,6 +14,7 @@ enum {
 };
 
 int limni_command_bake(int argc, char **argv);
+int limni_command_convert(int argc, char **argv);
 int limni_command_info(int argc, char **argv);
 int limni_command_export(int argc, char **argv);
 int limni_command_verify(int argc, char **argv);

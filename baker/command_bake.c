@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 #include "command.h"
 #include "output_file.h"
+#include "source.h"
 
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 #include <time.h>
 #include <unistd.h>
 
 static const char help[] =
     "usage: limn bake IN... -o OUT.limn [OPTIONS]\n\n"
-    "Bakes one or more meshes (.obj, .off) into one .limn file. The meshes share their stencil "
+    "Bakes one or more meshes (.obj, .off, .ply) into one .limn file. The meshes share their "
+    "stencil "
     "tables.\n"
     "Polygons are triangulated: quads along the shorter diagonal. Nothing is written unless all is "
     "well.\n\n"
@@ -135,12 +136,8 @@ static int parse(int argc, char **argv, arguments *given) {
 
 /// A mesh's name in the place of the output is a slip that would cost the mesh.
 static bool is_mesh_name(const char *path) {
-    static const char *const endings[] = {".obj", ".off", ".ply"};
-    const size_t length = strlen(path);
-    for (int e = 0; e < 3; e++) {
-        if (length > 4 && strcasecmp(path + length - 4, endings[e]) == 0) return true;
-    }
-    return false;
+    return limni_has_extension(path, ".obj") || limni_has_extension(path, ".off") ||
+           limni_has_extension(path, ".ply");
 }
 
 static void print_summary(const char *path, const void *blob, size_t size) {

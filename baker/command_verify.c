@@ -21,7 +21,7 @@ static const char help[] =
     "precision. Prints the largest and the mean difference relative to the diagonal of the "
     "bounding\n"
     "box. The file must have been baked from that mesh, with Loop's weights.\n\n"
-    "      --against FILE   the mesh (.obj, .off) that was baked\n"
+    "      --against FILE   the mesh (.obj, .off, .ply) that was baked\n"
     "      --mesh N         which mesh of the file, from 0 (default 0)\n"
     "      --repair[=STEPS] as for limn bake, if the mesh was repaired then\n"
     "      --tolerance X    fail when the largest difference is above X (default: 3e-7, and what\n"

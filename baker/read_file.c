@@ -33,15 +33,18 @@ static bool equal_without_case(const char *text, const char *lower) {
     return *text == *lower;
 }
 
+bool limni_has_extension(const char *path, const char *lower) {
+    return equal_without_case(find_extension(find_file_name(path)), lower);
+}
+
 static read_text_fn *find_reader(const char *path) {
     static const struct {
         const char *extension;
         read_text_fn *read;
-    } readers[] = {{".obj", limni_read_obj}, {".off", limni_read_off}};
+    } readers[] = {{".obj", limni_read_obj}, {".off", limni_read_off}, {".ply", limni_read_ply}};
 
-    const char *extension = find_extension(find_file_name(path));
     for (size_t reader = 0; reader < sizeof readers / sizeof readers[0]; reader++) {
-        if (equal_without_case(extension, readers[reader].extension)) return readers[reader].read;
+        if (limni_has_extension(path, readers[reader].extension)) return readers[reader].read;
     }
     return NULL;
 }
@@ -106,7 +109,7 @@ limn_bake_status limni_read_file(limni_context *context, const char *path, limni
     read_text_fn *read = find_reader(path);
     if (!read) {
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                          "%s: unknown kind of file; .obj and .off are read", path);
+                          "%s: unknown kind of file; .obj, .off and .ply are read", path);
     }
     LIMNI_TRY(name_source(context, path, source));
     char *text = limni_allocate(context, size + 1, 1);

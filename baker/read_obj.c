@@ -3,6 +3,7 @@
  * Wavefront OBJ: vertices, polygons, and OpenSubdiv's tags. Texture coordinates and normals are
  * checked and dropped; free-form geometry, groups and materials are skipped.
  */
+#include "read_lomont.h"
 #include "read_tag.h"
 
 enum { POSITION, TEXTURE, NORMAL, ELEMENT_COUNT };
@@ -181,6 +182,7 @@ static limn_bake_status read_lines(obj_reader *reader) {
 
 limn_bake_status limni_read_obj(limni_context *context, const char *text, size_t size,
                                 limni_source *source) {
+    if (limni_is_lomont(text)) return limni_read_lomont(context, text, size, source);
     obj_reader reader = {.builder = limni_builder_begin(context, source)};
     source->index_base = 1;
     LIMNI_TRY(limni_scanner_open(&reader.scanner, context, source->path, text, size));

@@ -8,9 +8,8 @@ limni_source_builder limni_builder_begin(limni_context *context, limni_source *s
     return (limni_source_builder){.context = context, .source = source};
 }
 
-/// `items` with room for at least one more than `count`, or NULL when out of memory.
-static void *make_room(limni_context *context, void *items, size_t count, size_t *room,
-                       size_t size) {
+void *limni_make_room(limni_context *context, void *items, size_t count, size_t *room,
+                      size_t size) {
     if (count < *room) return items;
     const size_t larger = *room == 0 ? 256 : 2 * *room;
     void *const moved = limni_resize(context, items, larger, size);
@@ -23,12 +22,12 @@ limn_bake_status limni_builder_add_position(limni_source_builder *builder, const
     limni_source *const source = builder->source;
     const uint32_t count = source->position_count;
     size_t lines_room = builder->positions_room;
-    void *const positions = make_room(builder->context, source->positions, count,
-                                      &builder->positions_room, sizeof *source->positions);
+    void *const positions = limni_make_room(builder->context, source->positions, count,
+                                            &builder->positions_room, sizeof *source->positions);
     if (!positions) return LIMN_BAKE_MEMORY;
     source->positions = positions;
-    uint32_t *const lines = make_room(builder->context, source->position_lines, count, &lines_room,
-                                      sizeof *source->position_lines);
+    uint32_t *const lines = limni_make_room(builder->context, source->position_lines, count,
+                                            &lines_room, sizeof *source->position_lines);
     if (!lines) return LIMN_BAKE_MEMORY;
     source->position_lines = lines;
     memcpy(source->positions[count], position, sizeof *source->positions);
@@ -39,8 +38,8 @@ limn_bake_status limni_builder_add_position(limni_source_builder *builder, const
 
 limn_bake_status limni_builder_add_corner(limni_source_builder *builder, uint32_t position) {
     uint32_t *const corners =
-        make_room(builder->context, builder->source->face_corners, builder->corner_count,
-                  &builder->corners_room, sizeof *corners);
+        limni_make_room(builder->context, builder->source->face_corners, builder->corner_count,
+                        &builder->corners_room, sizeof *corners);
     if (!corners) return LIMN_BAKE_MEMORY;
     builder->source->face_corners = corners;
     corners[builder->corner_count++] = position;
@@ -58,12 +57,12 @@ limn_bake_status limni_builder_end_face(limni_source_builder *builder, uint32_t 
     const uint32_t count = source->face_count;
     size_t lines_room = builder->faces_room;
     // One offset more than faces.
-    uint32_t *const offsets = make_room(builder->context, source->face_offsets, count + 1,
-                                        &builder->faces_room, sizeof *offsets);
+    uint32_t *const offsets = limni_make_room(builder->context, source->face_offsets, count + 1,
+                                              &builder->faces_room, sizeof *offsets);
     if (!offsets) return LIMN_BAKE_MEMORY;
     source->face_offsets = offsets;
-    uint32_t *const lines =
-        make_room(builder->context, source->face_lines, count + 1, &lines_room, sizeof *lines);
+    uint32_t *const lines = limni_make_room(builder->context, source->face_lines, count + 1,
+                                            &lines_room, sizeof *lines);
     if (!lines) return LIMN_BAKE_MEMORY;
     source->face_lines = lines;
     if (count == 0) offsets[0] = 0;
@@ -75,8 +74,9 @@ limn_bake_status limni_builder_end_face(limni_source_builder *builder, uint32_t 
 
 limn_bake_status limni_builder_add_crease(limni_source_builder *builder, limni_crease crease) {
     limni_tags *const tags = &builder->source->tags;
-    limni_crease *const creases = make_room(builder->context, tags->creases, tags->crease_count,
-                                            &builder->creases_room, sizeof *creases);
+    limni_crease *const creases =
+        limni_make_room(builder->context, tags->creases, tags->crease_count, &builder->creases_room,
+                        sizeof *creases);
     if (!creases) return LIMN_BAKE_MEMORY;
     tags->creases = creases;
     creases[tags->crease_count++] = crease;
@@ -87,8 +87,8 @@ limn_bake_status limni_builder_add_sharp_vertex(limni_source_builder *builder,
                                                 limni_sharp_vertex vertex) {
     limni_tags *const tags = &builder->source->tags;
     limni_sharp_vertex *const vertices =
-        make_room(builder->context, tags->sharp_vertices, tags->sharp_vertex_count,
-                  &builder->sharp_vertices_room, sizeof *vertices);
+        limni_make_room(builder->context, tags->sharp_vertices, tags->sharp_vertex_count,
+                        &builder->sharp_vertices_room, sizeof *vertices);
     if (!vertices) return LIMN_BAKE_MEMORY;
     tags->sharp_vertices = vertices;
     vertices[tags->sharp_vertex_count++] = vertex;
@@ -97,8 +97,8 @@ limn_bake_status limni_builder_add_sharp_vertex(limni_source_builder *builder,
 
 limn_bake_status limni_builder_add_hole(limni_source_builder *builder, limni_hole hole) {
     limni_tags *const tags = &builder->source->tags;
-    limni_hole *const holes = make_room(builder->context, tags->holes, tags->hole_count,
-                                        &builder->holes_room, sizeof *holes);
+    limni_hole *const holes = limni_make_room(builder->context, tags->holes, tags->hole_count,
+                                              &builder->holes_room, sizeof *holes);
     if (!holes) return LIMN_BAKE_MEMORY;
     tags->holes = holes;
     holes[tags->hole_count++] = hole;

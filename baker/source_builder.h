@@ -28,6 +28,10 @@ limn_bake_status limni_builder_add_hole(limni_source_builder *builder, limni_hol
 limn_bake_status limni_builder_add_corner(limni_source_builder *builder, uint32_t position);
 limn_bake_status limni_builder_end_face(limni_source_builder *builder, uint32_t line);
 
+/// `items` with room for at least one more than `count`, or NULL when out of memory. room: how many
+/// there is room for, which grows
+void *limni_make_room(limni_context *context, void *items, size_t count, size_t *room, size_t size);
+
 /// Corners since the last face was ended.
 uint32_t limni_builder_face_size(const limni_source_builder *builder);
 

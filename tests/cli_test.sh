@@ -12,7 +12,6 @@ if [ $# -ne 3 ]; then
 fi
 case $1 in */*) limn=$(cd "$(dirname "$1")" && pwd)/$(basename "$1") ;; *) limn=$1 ;; esac
 assets=$(cd "$2" && pwd) || exit 1
-failures=0
 
 # Never touch what somebody else keeps in the folder: everything happens in one of our own.
 mkdir -p "$3" || exit 1
@@ -20,9 +19,10 @@ folder=$(mktemp -d "$3/cli_test.XXXXXX") || exit 1
 cd "$folder" || exit 1
 folder=$(pwd)
 
+# Counted in a file: what reads from a pipe runs in a shell of its own.
 fail() {
     echo "FAILED: $*" >&2
-    failures=$((failures + 1))
+    echo "$*" >>"$folder/failures.txt"
 }
 
 # run STATUS ARGUMENT...: limn with that exit status; its words go to stdout.txt and stderr.txt.
@@ -107,7 +107,7 @@ obj_counts() {
 }
 
 mkdir kept
-touch stdout.txt stderr.txt before.txt after.txt
+touch stdout.txt stderr.txt before.txt after.txt failures.txt
 torus=$assets/torus32.obj
 sail=$assets/sail.obj
 cube=$assets/cube.off
@@ -115,11 +115,11 @@ cube=$assets/cube.off
 # ---- Help and version
 
 works --help
-for command in bake info export verify; do says stdout "^  $command "; done
+for command in bake convert info export verify; do says stdout "^  $command "; done
 works -h
 works --version
 says stdout '^limn [0-9]*\.[0-9]*\.[0-9]*$'
-for command in bake info export verify; do
+for command in bake convert info export verify; do
     "$limn" $command --help >stdout.txt 2>stderr.txt
     expect "$command --help" $? 0
     last="$command --help"
@@ -211,7 +211,7 @@ printf "${four}f 1 2 3\nf 3 1 2\n" | bad repeated.obj '6: repeated face'
 printf "${four}f 1 2 5\n" | bad range.obj '5: .*5'
 printf "${four}f 1 2 0\n" | bad zero.obj '5: '
 printf "${four}f 1 2 3\nt crease 2/1/0 0 1 -1\n" | bad negative.obj "6: sharpness is negative: '-1'"
-printf "${four}f 1 2 3\nt hole 1/0/0 0\n" | bad hole.obj ': every face is a hole'
+printf "${four}f 1 2 3\nt hole 1/0/0 0\n" | bad hole.obj ' every face is a hole'
 printf "v 0 0 nan\nf 1 1 1\n" | bad nan.obj '1: '
 printf "v 0 0 1e99\nf 1 1 1\n" | bad huge.obj '1: '
 printf "" | bad empty.obj ' '
@@ -248,6 +248,119 @@ refuses 2 'the output is a .limn file' bake "$torus" -o both.OFF
 ln both.obj other_name.limn
 refuses 2 'both.obj is input and output' bake both.obj -o ./other_name.limn
 cmp both.obj "$torus" || fail "the input was overwritten"
+
+# ---- convert
+
+# same_bake A B: two meshes give the same file, byte for byte; they have one name.
+same_bake() {
+    works bake -q "$1" -o one.limn
+    works bake -q "$2" -o two.limn
+    cmp one.limn two.limn || fail "$1 and $2 do not give the same file"
+}
+
+# tags_of FILE: its creases and corners that are not smooth, in an order of their own.
+tags_of() {
+    awk '$2 == "crease" && $6 != 0 { print $2, ($4 < $5 ? $4 " " $5 : $5 " " $4), $6 }
+         $2 == "corner" && $5 != 0' "$1" | sort
+}
+
+# round_trip MESH FOLDER: through every format and back. What has tags keeps them where formats have.
+round_trip() {
+    name=$(basename "$1")
+    name=${name%.*}
+    for format in obj off ply lomont; do mkdir -p "$2/$format" "$2/back_$format"; done
+    run 0 convert -q "$1" "$2/obj/$name.obj"
+    run 0 convert -q "$1" "$2/lomont/$name.obj" --format lomont
+    same_bake "$1" "$2/obj/$name.obj"
+    same_bake "$1" "$2/lomont/$name.obj"
+    works convert -q "$2/obj/$name.obj" "$2/back_obj/$name.obj"
+    cmp "$2/obj/$name.obj" "$2/back_obj/$name.obj" || fail "$1: OBJ changes on the way"
+    works convert -q "$2/lomont/$name.obj" "$2/back_obj/$name.obj"
+    same_bake "$1" "$2/back_obj/$name.obj"
+    works convert -q "$2/back_obj/$name.obj" "$2/back_lomont/$name.obj" --format=lomont
+    cmp "$2/lomont/$name.obj" "$2/back_lomont/$name.obj" || fail "$1: Lomont's OBJ changes on the way"
+    tags_of "$2/obj/$name.obj" >one.txt
+    tags_of "$2/back_obj/$name.obj" >two.txt
+    cmp one.txt two.txt || fail "$1: tags change on the way through Lomont's OBJ"
+    for format in off ply; do
+        run 0 convert -q "$1" "$2/$format/$name.$format"
+        works convert -q "$2/$format/$name.$format" "$2/back_$format/$name.obj"
+        grep -v '^t ' "$2/obj/$name.obj" | cmp - "$2/back_$format/$name.obj" ||
+            fail "$1: not the same bits after $format"
+    done
+}
+
+# A cube without its bottom: creases inside and on the boundary, sharp for ever, smooth again, and of
+# many digits; corners; a hole; and both rules.
+cat >house.obj <<'END'
+v 0 0 0
+v 1 0 0.1
+v 0 1 1e-30
+v 1 1 -0
+v 0 0 1.00000012
+v 1 0 1
+v 0 1 1000000064
+v 1 1 1
+f 5 6 8 7
+f 1 2 6 5
+f 2 4 8 6
+f 4 3 7 8
+f 3 1 5 7
+t interpolateboundary 1/0/0 1
+t creasemethod 0/0/1 chaikin
+t crease 4/2/0 5 7 0 1 0.333333343 2
+t crease 2/1/0 4 5 inf
+t crease 2/1/0 6 7 10.5
+t crease 2/1/0 4 6 1e-42
+t corner 2/1/0 4 5 1.10000002
+t hole 1/0/0 2
+END
+mkdir trip
+round_trip house.obj trip
+round_trip "$cube" trip
+round_trip "$sail" trip
+if [ -n "${LIMN_TEST_ASSETS:-}" ]; then
+    for name in loop_cubes_semisharp loop_icos_infsharp catmark_hole_test2 catmark_dart_edgecorner; do
+        round_trip "$LIMN_TEST_ASSETS/opensubdiv_shapes/$name.obj" trip
+    done
+fi
+notes 'triangulated' convert house.obj lomont.obj -f lomont
+says stdout '^lomont.obj: 8 vertices, 10 faces$'
+expect "Lomont's first line" "$(head -n 1 lomont.obj)" '#SubdivisionSurfL 0.1'
+expect "Lomont's sizes" "$(sed -n 2p lomont.obj)" 'si 8 10 17 0'
+expect "Lomont's entries" "$(cut -d' ' -f1 lomont.obj | uniq -c | tr -s ' \n' ' ')" \
+    " 1 #SubdivisionSurfL 1 si 8 v 10 f 30 hd 8 vs 5 t "
+expect "boundaries" "$(grep '^hd -1' lomont.obj | sort | uniq -c | tr -s ' ')" ' 4 hd -1 inf'
+expect "one sharpness, twice" "$(grep -c '^hd .* 0.333333343$' lomont.obj)" 2
+notes 'house.off: lost, as the format has no tags: 5 creases, 2 corners, 1 holes, and rules' convert house.obj house.off
+works convert house.off house.ply
+says stdout '^house.ply: 8 vertices, 5 faces$'
+works convert house.ply house.off.obj -q
+expect "convert -q" "$(cat stdout.txt)" ""
+works convert house.off house.data --format off
+cmp house.off house.data || fail "convert --format: not the same"
+works convert house.off /dev/null -f ply
+awk '/^hd/ && !done { $3 = 7; done = 1 } { print }' lomont.obj >bad_weight.obj
+refuses 1 'bad_weight.obj:21: half-edges 1 and .* are a pair, but differ in sharpness' convert bad_weight.obj new.obj
+printf 'f 1 2 3\nt corner 1/1/0 9 1\n' | cat house.obj - >extra.obj
+notes 'extra.obj: ignored: 1 corners that name no vertex (the first is in line 23)' convert extra.obj kept_tags.obj
+grep -q 'corner 1/1/0 9' kept_tags.obj && fail "convert keeps the tag of a vertex that is not there"
+refuses 1 'edge.obj: non-manifold edge' convert edge.obj new.obj --format lomont
+works convert edge.obj edge.ply
+refuses 1 'missing.obj: cannot be read' convert missing.obj new.ply
+refuses 1 'nan.obj:1: ' convert nan.obj new.ply
+refuses 1 'no_folder/new.ply: cannot ' convert house.obj no_folder/new.ply -q
+if [ -c /dev/full ]; then refuses 1 '/dev/full: cannot write: No space' convert house.off /dev/full -f ply; fi
+echo old >kept/old.obj
+refuses 1 'nan.obj:1: ' convert nan.obj kept/old.obj
+expect "the older file" "$(cat kept/old.obj)" old
+refuses 2 'one input and one output' convert
+refuses 2 'one input and one output' convert house.obj
+refuses 2 'one input and one output' convert house.obj a.obj b.obj
+refuses 2 'new.stl: the output must end in .obj, .off or .ply' convert house.obj new.stl
+refuses 2 "no format 'OBJ'" convert house.obj new.obj --format OBJ
+refuses 2 'house.obj is input and output' convert house.obj ./house.obj
+refuses 2 'see limn convert --help' convert house.obj new.obj --frob
 
 # ---- Welding goes by place: surfaces that only touch stay apart
 
@@ -567,8 +680,8 @@ else
     refuses 2 'cannot repair' verify torus.limn --against "$torus" --repair=frob
 fi
 
-if [ $failures -gt 0 ]; then
-    echo "$failures failures; see $folder" >&2
+if [ -s failures.txt ]; then
+    echo "$(grep -c '' failures.txt) failures; see $folder" >&2
     exit 1
 fi
 cd / && rm -rf "$folder"

@@ -2,146 +2,11 @@
 /* The strict mesh readers: good texts, bad texts with their messages, damaged texts, real files. */
 #define _POSIX_C_SOURCE 200809L /* truncate, mkdir */
 
-#include "../baker/source.h"
-
-#include "check.h"
+#include "readers.h"
 
 #include <locale.h>
-#include <math.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-typedef limn_bake_status read_text_fn(limni_context *context, const char *text, size_t size,
-                                      limni_source *source);
-
-typedef struct text_case {
-    const char *text;
-    const char *expected;
-} text_case;
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
-/// Reads a copy of exactly the text, so that the address sanitizer sees every step outside.
-static limn_bake_status read_text(limni_context *context, read_text_fn *read, const char *text,
-                                  size_t size, limni_source *source) {
-    char *copy = malloc(size + 1);
-    if (!copy) abort();
-    memcpy(copy, text, size);
-    copy[size] = '\0';
-    *source = (limni_source){.path = read == limni_read_obj ? "t.obj" : "t.off"};
-    const limn_bake_status status = read(context, copy, size, source);
-    free(copy);
-    return status;
-}
-
-static bool is_sharpness(float value) {
-    return value >= 0 && !signbit(value);
-}
-
-/// Tags may name what is not there.
-static bool has_valid_tags(const limni_tags *tags) {
-    bool valid = true;
-    for (uint32_t c = 0; c < tags->crease_count; c++)
-        valid = valid && is_sharpness(tags->creases[c].sharpness) && tags->creases[c].line > 0;
-    for (uint32_t v = 0; v < tags->sharp_vertex_count; v++)
-        valid = valid && is_sharpness(tags->sharp_vertices[v].sharpness) &&
-                tags->sharp_vertices[v].line > 0;
-    for (uint32_t h = 0; h < tags->hole_count; h++)
-        valid = valid && tags->holes[h].line > 0;
-    return valid;
-}
-
-/// Everything that source.h promises about the arrays.
-static bool is_valid(const limni_source *source) {
-    bool valid = source->position_count > 0 && source->face_count > 0;
-    valid = valid && has_valid_tags(&source->tags);
-    for (uint32_t position = 0; position < source->position_count; position++) {
-        const float *p = source->positions[position];
-        valid = valid && isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
-        valid = valid && source->position_lines[position] > 0;
-    }
-    valid = valid && source->face_offsets[0] == 0;
-    for (uint32_t face = 0; face < source->face_count; face++) {
-        valid = valid && source->face_offsets[face] + 3 <= source->face_offsets[face + 1];
-        valid = valid && source->face_lines[face] > 0;
-    }
-    const uint32_t corner_count = source->face_offsets[source->face_count];
-    for (uint32_t corner = 0; corner < corner_count; corner++) {
-        valid = valid && source->face_corners[corner] < source->position_count;
-    }
-    return valid;
-}
-
-/// The mesh as "line:x,y,z …  line:a,b,c …".
-static const char *describe(const limni_source *source) {
-    static char text[1024];
-    size_t used = 0;
-    for (uint32_t position = 0; position < source->position_count; position++) {
-        const float *p = source->positions[position];
-        used += (size_t)snprintf(text + used, sizeof text - used, "%u:%g,%g,%g ",
-                                 source->position_lines[position], (double)p[0], (double)p[1],
-                                 (double)p[2]);
-    }
-    for (uint32_t face = 0; face < source->face_count; face++) {
-        used += (size_t)snprintf(text + used, sizeof text - used, " %u:", source->face_lines[face]);
-        for (uint32_t corner = source->face_offsets[face]; corner < source->face_offsets[face + 1];
-             corner++) {
-            used += (size_t)snprintf(text + used, sizeof text - used, "%s%u",
-                                     corner > source->face_offsets[face] ? "," : "",
-                                     source->face_corners[corner]);
-        }
-    }
-    return text;
-}
-
-/// The tags as "line:a-b=sharpness … line:vertex=sharpness … line:face … boundary creasing".
-static const char *describe_tags(const limni_source *source) {
-    static char text[1024];
-    const limni_tags *const tags = &source->tags;
-    size_t used = 0;
-    for (uint32_t c = 0; c < tags->crease_count; c++) {
-        const limni_crease *const crease = &tags->creases[c];
-        used += (size_t)snprintf(text + used, sizeof text - used, "%u:%u-%u=%g ", crease->line,
-                                 crease->a, crease->b, (double)crease->sharpness);
-    }
-    for (uint32_t v = 0; v < tags->sharp_vertex_count; v++) {
-        const limni_sharp_vertex *const vertex = &tags->sharp_vertices[v];
-        used += (size_t)snprintf(text + used, sizeof text - used, "%u:%u=%g ", vertex->line,
-                                 vertex->position, (double)vertex->sharpness);
-    }
-    for (uint32_t h = 0; h < tags->hole_count; h++)
-        used += (size_t)snprintf(text + used, sizeof text - used, "%u:%u ", tags->holes[h].line,
-                                 tags->holes[h].face);
-    snprintf(text + used, sizeof text - used, "%d %d", (int)tags->boundary, (int)tags->creasing);
-    return text;
-}
-
-static void check_good(read_text_fn *read, const text_case *cases, size_t count) {
-    for (size_t i = 0; i < count; i++) {
-        limni_context context = {0};
-        limni_source source;
-        const limn_bake_status status =
-            read_text(&context, read, cases[i].text, strlen(cases[i].text), &source);
-        CHECK_TEXT(context.error, "");
-        if (CHECK_EQUAL(status, LIMN_BAKE_OK)) {
-            CHECK(is_valid(&source));
-            CHECK_TEXT(describe(&source), cases[i].expected);
-        }
-        limni_release_all(&context);
-    }
-}
-
-static void check_bad(read_text_fn *read, const text_case *cases, size_t count) {
-    for (size_t i = 0; i < count; i++) {
-        limni_context context = {0};
-        limni_source source;
-        CHECK_EQUAL(read_text(&context, read, cases[i].text, strlen(cases[i].text), &source),
-                    LIMN_BAKE_BAD_INPUT);
-        CHECK_TEXT(context.error, cases[i].expected);
-        limni_release_all(&context);
-    }
-}
 
 #define XYZ "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 #define XYZ_READ "1:0,0,0 2:1,0,0 3:0,1,0 "
@@ -273,18 +138,7 @@ static void test_good_tags(void) {
               "t facevaryingpropagatecorners 1/0/0 1\nt spam 1\n",
          "0 0"},
     };
-    for (size_t i = 0; i < COUNT(cases); i++) {
-        limni_context context = {0};
-        limni_source source;
-        const limn_bake_status status =
-            read_text(&context, limni_read_obj, cases[i].text, strlen(cases[i].text), &source);
-        CHECK_TEXT(context.error, "");
-        if (CHECK_EQUAL(status, LIMN_BAKE_OK)) {
-            CHECK(is_valid(&source));
-            CHECK_TEXT(describe_tags(&source), cases[i].expected);
-        }
-        limni_release_all(&context);
-    }
+    check_described(limni_read_obj, cases, COUNT(cases), describe_tags);
 }
 
 static void test_bad_tags(void) {
@@ -530,20 +384,6 @@ static const char off_sample[] =
     "COFF # cage\r\n4 2 0\n0 0 0 1 1 1\n1 0 0 1 1 1 1\n\n1.5e0 -1 +.25 "
     "0 0 0\n0 1 0 1 1 1\n3 0 1 2 255 0 0\n4 0 1 2 3\n# end\n";
 
-static bool read_anything(read_text_fn *read, const char *text, size_t size) {
-    limni_context context = {0};
-    limni_source source;
-    const limn_bake_status status = read_text(&context, read, text, size, &source);
-    if (status == LIMN_BAKE_OK) {
-        CHECK(is_valid(&source));
-    } else {
-        CHECK_EQUAL(status, LIMN_BAKE_BAD_INPUT);
-        CHECK(strncmp(context.error, read == limni_read_obj ? "t.obj:" : "t.off:", 6) == 0);
-    }
-    limni_release_all(&context);
-    return status == LIMN_BAKE_OK;
-}
-
 static void test_prefixes(void) {
     for (size_t size = 0; size < sizeof obj_sample; size++) {
         read_anything(limni_read_obj, obj_sample, size);
@@ -553,32 +393,6 @@ static void test_prefixes(void) {
     }
     CHECK(read_anything(limni_read_obj, obj_sample, sizeof obj_sample - 1));
     CHECK(read_anything(limni_read_off, off_sample, sizeof off_sample - 1));
-}
-
-static uint32_t random_below(uint64_t *state, uint32_t limit) {
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (uint32_t)((*state >> 33) % limit);
-}
-
-/// Bytes that mean something to a reader are likelier than others.
-static char random_byte(uint64_t *state) {
-    static const char common[] = "0123456789-+.eE/\\#\n\r\t vftnOFC";
-    if (random_below(state, 8) == 0) return (char)random_below(state, 256);
-    return common[random_below(state, sizeof common - 1)];
-}
-
-static void test_mutations(read_text_fn *read, const char *sample, size_t size) {
-    uint64_t state = 1;
-    char text[512];
-    for (uint32_t round = 0; round < 20000; round++) {
-        memcpy(text, sample, size);
-        const uint32_t changes = 1 + random_below(&state, 4);
-        for (uint32_t change = 0; change < changes; change++) {
-            const uint32_t place = random_below(&state, (uint32_t)size);
-            text[place] = random_byte(&state);
-        }
-        read_anything(read, text, size);
-    }
 }
 
 static void write_text(const char *path, const char *text) {
@@ -601,13 +415,14 @@ static void test_file_errors(void) {
                      "missing.obj: cannot be read: No such file or directory");
     mkdir("test_readers.obj", 0700);
     check_file_error("test_readers.obj", LIMN_BAKE_IO, "test_readers.obj: is a folder, not a file");
-    write_text("test_readers.obj/a.b.ply", "ply\n");
-    check_file_error("test_readers.obj/a.b.ply", LIMN_BAKE_BAD_INPUT,
-                     "test_readers.obj/a.b.ply: unknown kind of file; .obj and .off are read");
-    remove("test_readers.obj/a.b.ply");
+    write_text("test_readers.obj/a.b.stl", "solid\n");
+    check_file_error(
+        "test_readers.obj/a.b.stl", LIMN_BAKE_BAD_INPUT,
+        "test_readers.obj/a.b.stl: unknown kind of file; .obj, .off and .ply are read");
+    remove("test_readers.obj/a.b.stl");
     write_text("test_readers.obj/obj", "");
     check_file_error("test_readers.obj/obj", LIMN_BAKE_BAD_INPUT,
-                     "test_readers.obj/obj: unknown kind of file; .obj and .off are read");
+                     "test_readers.obj/obj: unknown kind of file; .obj, .off and .ply are read");
     remove("test_readers.obj/obj");
     write_text("test_readers.obj/empty.off", "");
     check_file_error("test_readers.obj/empty.off", LIMN_BAKE_BAD_INPUT,

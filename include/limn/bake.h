@@ -111,7 +111,7 @@ typedef struct limn_baker limn_baker;
 limn_baker *limn_baker_create(const limn_bake_desc *desc);
 void limn_baker_destroy(limn_baker *baker);
 
-/// Adds the mesh in an .obj or .off file, named after the file. After an error the baker can only
+/// Adds the mesh in an .obj, .off or .ply file, named after the file. After an error the baker can only
 /// be destroyed.
 limn_bake_status limn_baker_add_file(limn_baker *baker, const char *path);
 
