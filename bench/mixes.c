@@ -139,7 +139,7 @@ static void shake(torus *t) {
 
 static bool add_normals(bench_mix *mix) {
     const limn_mesh *const mesh = &mix->mesh;
-    mix->control_normals = malloc(3 * (size_t)mesh->control_count * sizeof(float));
+    mix->control_normals = malloc(3 * (size_t)mesh->normal_count * sizeof(float));
     if (!mix->control_normals) return false;
     limn_mesh_control_normals(mesh, mesh->controls, mix->control_normals);
     return true;

@@ -49,6 +49,7 @@ typedef struct limni_run {
     uint32_t pair_count; ///< mirrored control points: slots 1 and 2, 3 and 4, …; 0: no symmetry
     size_t table_stride; ///< floats from table to table
     uint32_t slot_size;  ///< 1 or 2
+    const uint32_t *corner_normals; ///< [patch_count][corner_count]; NULL: the control points
     uint32_t patch_count;
     const limn_plan_patch
         *items;           ///< [patch_count] what is wanted of which patches, from one class;
@@ -60,7 +61,7 @@ typedef struct limni_run {
 typedef struct limni_points {
     const float *controls; ///< [][3]
     const float *origin;   ///< [3] subtracted from every control point, and added to every row
-    const float *normals;  ///< [][3] of the control points, for the corners; NULL: no normals
+    const float *normals;  ///< [][3] see limn_mesh_control_normals(); NULL: no normals
 } limni_points;
 
 /// Where the vertices of a run go, one patch behind the other.
@@ -84,8 +85,11 @@ typedef struct limni_ring {
     const float *weights;     ///< [2][count], which apply relative to the control point
 } limni_ring;
 
-static inline limni_ring limni_ring_of(const limn_mesh *mesh, uint32_t control) {
-    const limn_file_normal *const record = &mesh->normals[control];
+static inline limni_ring limni_ring_of(const limn_mesh *mesh, uint32_t normal) {
+    const limn_file_side *const side =
+        normal < mesh->control_count ? NULL : &mesh->sides[normal - mesh->control_count];
+    const uint32_t control = side ? side->control : normal;
+    const limn_file_normal *const record = side ? &side->normal : &mesh->normals[control];
     return (limni_ring){.control = control,
                         .count = record->ring_count,
                         .controls = mesh->ring + record->first_ring,

@@ -33,6 +33,10 @@ limni_run limni_run_part(const limn_mesh *mesh, const limn_file_run *run, uint32
         .table_stride = (size_t) class->control_count * layout->row_stride,
         .pair_count = class->pair_count,
         .slot_size = slot_size,
+        .corner_normals = mesh->corner_normals
+                              ? mesh->corner_normals +
+                                    mesh->domain->corner_count * ((size_t)run->first_patch + begin)
+                              : NULL,
         .patch_count = end - begin,
     };
 }

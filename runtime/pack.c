@@ -74,8 +74,8 @@ static const uint32_t kinds_of_mesh[] = {LIMN_CHUNK_MESH,  LIMN_CHUNK_NAME,  LIM
                                          LIMN_CHUNK_RUNS,  LIMN_CHUNK_FACES, LIMN_CHUNK_INDICES,
                                          LIMN_CHUNK_SLOTS, LIMN_CHUNK_ERRORS};
 
-static const uint32_t kinds_of_normals[] = {LIMN_CHUNK_NORMALS, LIMN_CHUNK_RINGS,
-                                            LIMN_CHUNK_WEIGHTS};
+static const uint32_t optional_kinds[] = {LIMN_CHUNK_NORMALS, LIMN_CHUNK_RINGS, LIMN_CHUNK_WEIGHTS,
+                                          LIMN_CHUNK_CREASES, LIMN_CHUNK_SIDES, LIMN_CHUNK_CORNERS};
 
 static bool is_among(uint32_t kind, const uint32_t *kinds, size_t count) {
     for (size_t k = 0; k < count; k++) {
@@ -88,7 +88,7 @@ static bool is_known(const limn_file_chunk *chunk) {
     if (chunk->mesh == LIMN_FORMAT_NO_MESH)
         return is_among(chunk->kind, kinds_of_file, sizeof kinds_of_file / sizeof(uint32_t));
     return is_among(chunk->kind, kinds_of_mesh, sizeof kinds_of_mesh / sizeof(uint32_t)) ||
-           is_among(chunk->kind, kinds_of_normals, sizeof kinds_of_normals / sizeof(uint32_t));
+           is_among(chunk->kind, optional_kinds, sizeof optional_kinds / sizeof(uint32_t));
 }
 
 // ---- Validation of the file
@@ -286,9 +286,47 @@ static limn_result validate_faces(const limn_mesh *mesh) {
     return LIMN_OK;
 }
 
+static bool is_normal_inside(const limn_file_normal *normal, uint64_t ring_size,
+                             uint64_t weight_count) {
+    return (uint64_t)normal->first_ring + normal->ring_count <= ring_size &&
+           normal->first_weight + 2 * (uint64_t)normal->ring_count <= weight_count;
+}
+
+static limn_result validate_creases(const limn_pack *pack, const limn_mesh *mesh, uint32_t m) {
+    const uint32_t edge_bits = (1u << mesh->domain->corner_count) - 1;
+    if (!mesh->creases) return LIMN_OK;
+    if (!chunk_has_size(pack, m, LIMN_CHUNK_CREASES, mesh->patch_count, 1)) return LIMN_ERROR_MESH;
+    for (uint32_t p = 0; p < mesh->patch_count; p++) {
+        if (mesh->creases[p] & ~edge_bits) return LIMN_ERROR_MESH;
+    }
+    return LIMN_OK;
+}
+
+/// A mesh has sides and which corners take them, or neither.
+static limn_result validate_sides(const limn_pack *pack, const limn_mesh *mesh, uint32_t m,
+                                  uint64_t ring_size, uint64_t weight_count) {
+    const uint32_t corner_count = mesh->domain->corner_count;
+    if (!mesh->sides != !mesh->corner_normals) return LIMN_ERROR_CHUNK;
+    if (!mesh->sides) return LIMN_OK;
+    if (!chunk_has_size(pack, m, LIMN_CHUNK_SIDES, mesh->normal_count - mesh->control_count,
+                        sizeof *mesh->sides) ||
+        !chunk_has_size(pack, m, LIMN_CHUNK_CORNERS, mesh->patch_count,
+                        corner_count * sizeof(uint32_t)))
+        return LIMN_ERROR_MESH;
+    for (uint32_t s = 0; s < mesh->normal_count - mesh->control_count; s++) {
+        if (mesh->sides[s].control >= mesh->control_count ||
+            !is_normal_inside(&mesh->sides[s].normal, ring_size, weight_count))
+            return LIMN_ERROR_NORMALS;
+    }
+    for (uint64_t c = 0; c < (uint64_t)mesh->patch_count * corner_count; c++) {
+        if (mesh->corner_normals[c] >= mesh->normal_count) return LIMN_ERROR_NORMALS;
+    }
+    return LIMN_OK;
+}
+
 /// A mesh has all of it or nothing, and with it tangents in all the classes that it uses.
 static limn_result validate_normals(const limn_pack *pack, const limn_mesh *mesh, uint32_t m) {
-    if (!mesh->normals) return LIMN_OK;
+    if (!mesh->normals) return mesh->sides || mesh->corner_normals ? LIMN_ERROR_CHUNK : LIMN_OK;
     const limn_file_chunk *const rings = find_chunk(pack, m, LIMN_CHUNK_RINGS);
     const limn_file_chunk *const weights = find_chunk(pack, m, LIMN_CHUNK_WEIGHTS);
     if (!rings || !weights) return LIMN_ERROR_CHUNK;
@@ -300,11 +338,10 @@ static limn_result validate_normals(const limn_pack *pack, const limn_mesh *mesh
         if (mesh->classes[mesh->runs[r].class_index].table_count != 3) return LIMN_ERROR_NORMALS;
     }
     for (uint32_t c = 0; c < mesh->control_count; c++) {
-        const limn_file_normal *const normal = &mesh->normals[c];
-        if ((uint64_t)normal->first_ring + normal->ring_count > ring_size ||
-            normal->first_weight + 2 * (uint64_t)normal->ring_count > weight_count)
+        if (!is_normal_inside(&mesh->normals[c], ring_size, weight_count))
             return LIMN_ERROR_NORMALS;
     }
+    TRY(validate_sides(pack, mesh, m, ring_size, weight_count));
     for (uint64_t r = 0; r < ring_size; r++) {
         if (mesh->ring[r] >= mesh->control_count) return LIMN_ERROR_NORMALS;
     }
@@ -325,6 +362,7 @@ static limn_result validate_mesh(const limn_pack *pack, uint32_t m) {
     for (uint32_t r = 0; r < mesh.run_count; r++)
         TRY(validate_patches(&mesh, &mesh.runs[r]));
     TRY(validate_faces(&mesh));
+    TRY(validate_creases(pack, &mesh, m));
     return validate_normals(pack, &mesh, m);
 }
 
@@ -348,6 +386,11 @@ limn_result limn_pack_open(limn_pack *pack, const void *blob, size_t blob_size) 
     return LIMN_OK;
 }
 
+static uint32_t side_count(const limn_pack *pack, uint32_t mesh_index) {
+    const limn_file_chunk *const chunk = find_chunk(pack, mesh_index, LIMN_CHUNK_SIDES);
+    return chunk ? (uint32_t)(chunk->size / sizeof(limn_file_side)) : 0;
+}
+
 limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index) {
     LIMNI_REQUIRE(pack && mesh_index < pack->mesh_count, (limn_mesh){0});
     const limn_file_mesh *const record = chunk_data(pack, mesh_index, LIMN_CHUNK_MESH);
@@ -369,8 +412,12 @@ limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index) {
         .normals = optional_data(pack, mesh_index, LIMN_CHUNK_NORMALS),
         .ring = optional_data(pack, mesh_index, LIMN_CHUNK_RINGS),
         .weights = optional_data(pack, mesh_index, LIMN_CHUNK_WEIGHTS),
+        .creases = optional_data(pack, mesh_index, LIMN_CHUNK_CREASES),
+        .sides = optional_data(pack, mesh_index, LIMN_CHUNK_SIDES),
+        .corner_normals = optional_data(pack, mesh_index, LIMN_CHUNK_CORNERS),
         .kernels = pack->kernels,
     };
+    if (mesh.normals) mesh.normal_count = mesh.control_count + side_count(pack, mesh_index);
     memcpy(mesh.bounds_min, record->bounds_min, sizeof mesh.bounds_min);
     memcpy(mesh.bounds_max, record->bounds_max, sizeof mesh.bounds_max);
     memcpy(mesh.origin, record->origin, sizeof mesh.origin);

@@ -31,8 +31,8 @@ static inline void sum_ring(const limni_ring *ring, const float *controls, size_
 /// Reproducible in both families: patches of either take them for their corners.
 static void find_control_normals(const limn_mesh *mesh, const float *controls, float *normals) {
     vectors along, across;
-    for (uint32_t first = 0; first < mesh->control_count; first += CONTROL_BLOCK) {
-        const uint32_t left = mesh->control_count - first;
+    for (uint32_t first = 0; first < mesh->normal_count; first += CONTROL_BLOCK) {
+        const uint32_t left = mesh->normal_count - first;
         const uint32_t count = left < CONTROL_BLOCK ? left : CONTROL_BLOCK;
         for (int axis = 0; axis < 3; axis++) {
             lanes_store(&along.axes[axis][count], lanes_zero());

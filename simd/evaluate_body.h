@@ -96,7 +96,8 @@ static inline part normal_part(const limni_target *target) {
     return p;
 }
 
-/// The corners have the normals of their control points, so that all patches around one agree.
+/// The corners have the normals of their control points, so that all patches around one agree, or
+/// all on one side.
 static inline void set_corner_normals(const uint32_t *corners, size_t corner_count,
                                       const float *control_normals, vectors *normals) {
     for (size_t corner = 0; corner < corner_count; corner++) {
@@ -124,7 +125,7 @@ static inline void pack_normals(limn_normal_format format, size_t row_count, vec
 /// What is stored of a patch.
 typedef struct wanted {
     const limn_plan_patch *item;  ///< NULL: all rows where they are
-    const uint32_t *corners;      ///< control points
+    const uint32_t *corners;      ///< indices of their normals
     const float *control_normals; ///< NULL: no normals
     const limni_layout *layout;   ///< of tangents
     uint32_t level;
@@ -325,8 +326,11 @@ static LIMNI_INLINE void evaluate_patches(const limni_run *run, const gathering 
                         row_count);
             continue;
         }
+        const uint32_t *const corners =
+            run->corner_normals ? run->corner_normals + at * target->domain->corner_count
+                                : which.indices;
         const wanted what = {.item = item,
-                             .corners = which.indices,
+                             .corners = corners,
                              .control_normals = from->normals,
                              .layout = run->tangent_layout,
                              .level = which.level,

@@ -353,7 +353,7 @@ static void check_corners(const limn_mesh *mesh, uint32_t patch_index) {
 /// Writes normals into rooms of just their size.
 static void evaluate_normals(const limn_mesh *mesh, uint32_t level) {
     const limn_plan plan = limn_plan_uniform(mesh, level);
-    float *const control_normals = malloc(mesh->control_count * sizeof(float[3]));
+    float *const control_normals = malloc(mesh->normal_count * sizeof(float[3]));
     float *const vertices = malloc((size_t)plan.vertex_count * sizeof(float[3]));
     float *const normals = malloc((size_t)plan.vertex_count * sizeof(float[3]));
     limn_mesh_control_normals(mesh, mesh->controls, control_normals);

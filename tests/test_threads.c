@@ -161,7 +161,7 @@ static bool open_mesh(const char *path, limni_blob_file *file) {
     if (!limni_blob_file_open(file, path, error, sizeof error)) return false;
     if (limn_pack_open(&pack, file->bytes, file->size) != LIMN_OK) return false;
     mesh = limn_pack_mesh(&pack, 0);
-    control_normals = malloc(mesh.control_count * 3 * sizeof(float));
+    control_normals = malloc(mesh.normal_count * 3 * sizeof(float));
     for (uint32_t p = 0; p < sizeof plans / sizeof *plans; p++) {
         memories[p] = malloc(limn_plan_size(&mesh));
         if (!memories[p]) return false;

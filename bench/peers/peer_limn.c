@@ -17,7 +17,7 @@ typedef struct state {
     limn_plan plan;
     limn_output output;
     const float *controls;
-    float (*control_normals)[3]; ///< [control_count]; NULL: positions only
+    float (*control_normals)[3]; ///< [normal_count]; NULL: positions only
     uint32_t *patches;           ///< [face_count] the patch of a face
     uint16_t (*rows)[3];         ///< [row_count] the row of a patch with that rotation
     float (*skinned)[3];         ///< [control_count], and one float; NULL without skinning
@@ -36,7 +36,7 @@ static void set_output(state *self, peer_output output) {
     self->output = (limn_output){.stride = 3 * sizeof(float)};
     self->output.vertices = bench_allocate(count, self->output.stride);
     if (output == PEER_POSITION) return;
-    self->control_normals = bench_allocate(self->mesh.control_count, sizeof *self->control_normals);
+    self->control_normals = bench_allocate(self->mesh.normal_count, sizeof *self->control_normals);
     self->output.normals = bench_allocate(count, 3 * sizeof(float));
     self->output.control_normals = self->control_normals[0];
 }

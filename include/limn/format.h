@@ -72,6 +72,12 @@ extern "C" {
 #define LIMN_CHUNK_RINGS LIMN_FORMAT_KIND('R', 'I', 'N', 'G')
 #define LIMN_CHUNK_WEIGHTS LIMN_FORMAT_KIND('W', 'G', 'H', 'T')
 
+/// In meshes with sharp creases: uint8_t[patch_count], and with normals, where there are sides,
+/// limn_file_side[] and uint32_t[patch_count][corners].
+#define LIMN_CHUNK_CREASES LIMN_FORMAT_KIND('C', 'R', 'E', 'A')
+#define LIMN_CHUNK_SIDES LIMN_FORMAT_KIND('S', 'I', 'D', 'E')
+#define LIMN_CHUNK_CORNERS LIMN_FORMAT_KIND('C', 'O', 'R', 'N')
+
 /// Bit of limn_file_chunk.flags: a reader that does not know this chunk must refuse the file.
 #define LIMN_CHUNK_REQUIRED 1u
 
@@ -117,6 +123,13 @@ typedef struct limn_file_normal {
     uint32_t ring_count;   ///< 0: the control point is used by no face
     uint32_t first_weight; ///< into the weights chunk: [2][ring_count]
 } limn_file_normal;
+
+/// A further normal of a control point that has several: on a crease one for each side, at a corner
+/// one for each face.
+typedef struct limn_file_side {
+    uint32_t control;
+    limn_file_normal normal;
+} limn_file_side;
 
 /// Rows of a column, with padding.
 static inline uint32_t limn_file_row_stride(const limn_file_class *file_class) {
@@ -166,6 +179,7 @@ LIMN_STATIC_ASSERT(offsetof(limn_file_chunk, offset) == 16, "chunk.offset");
 LIMN_STATIC_ASSERT(sizeof(limn_file_class) == 32, "class");
 LIMN_STATIC_ASSERT(offsetof(limn_file_class, valences) == 16, "class.valences");
 LIMN_STATIC_ASSERT(sizeof(limn_file_normal) == 12, "normal");
+LIMN_STATIC_ASSERT(sizeof(limn_file_side) == 16, "side");
 LIMN_STATIC_ASSERT(sizeof(limn_file_mesh) == 64, "mesh");
 LIMN_STATIC_ASSERT(offsetof(limn_file_mesh, bounds_min) == 24, "mesh.bounds_min");
 LIMN_STATIC_ASSERT(sizeof(limn_file_run) == 32, "run");

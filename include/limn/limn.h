@@ -243,10 +243,17 @@ typedef struct limn_mesh {
     const uint32_t *indices;
     const uint8_t *slots;
     const uint16_t *errors; ///< [patch_count][corner_count] of edges, see docs/format.md
+    const uint8_t *creases; ///< [patch_count], bit e: edge e is a sharp crease, where the patches
+                            ///< have the same positions, but normals of their own; NULL: none is
     const float *tables;
     const struct limn_file_run *runs;
     const struct limn_file_class *classes;
     const struct limn_file_normal *normals; ///< NULL: the mesh was baked without normals
+    const struct limn_file_side *sides;     ///< [normal_count - control_count]
+    const uint32_t *corner_normals; ///< [patch_count][corner_count] the normals of the corners;
+                                    ///< NULL: those of the control points
+    uint32_t normal_count; ///< of limn_mesh_control_normals(): one per control point, and more on
+                           ///< creases; 0 without normals
     const uint32_t *ring;
     const float *weights;
     const limn_kernels *kernels;
@@ -439,7 +446,7 @@ typedef struct limn_output {
     uint32_t normal_stride; ///< bytes from normal to normal, a multiple of the alignment; 0 means
                             ///< tightly packed, so inside the vertices it is never 0
     limn_normal_format normal_format;
-    /// [mesh->control_count][3] from limn_mesh_control_normals(), for the corners of the patches;
+    /// [mesh->normal_count][3] from limn_mesh_control_normals(), for the corners of the patches;
     /// needed with `normals`.
     const float *control_normals;
     /// Write past the caches, where the CPU can (x86), where there are no gaps between vertices and
@@ -447,13 +454,14 @@ typedef struct limn_output {
     bool streaming;
 } limn_output;
 
-/// Limit normals of all control points: unit vectors, towards the side from which faces are
+/// Limit normals of all control points, and then of further sides of creases and faces at corners,
+/// which patches take by mesh->corner_normals: unit vectors, towards the side from which faces are
 /// counter-clockwise. Where the surface has no tangent plane, and at control points that no face
 /// uses, the normal is (0, 0, 1). Does not allocate, never fails; any thread. The mesh must have
 /// normals.
 ///
 /// controls  [mesh->control_count][3] floats, model units
-/// normals   out: [mesh->control_count][3] floats; must not overlap the controls
+/// normals   out: [mesh->normal_count][3] floats; must not overlap the controls
 void limn_mesh_control_normals(const limn_mesh *mesh, const float *controls, float *normals);
 
 /// Evaluates patches [begin, end) of a plan and writes their positions, and if asked to, unit
