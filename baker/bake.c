@@ -26,6 +26,8 @@ limn_baker *limn_baker_create(const limn_bake_desc *desc) {
     if (desc) baker->context.desc = *desc;
     baker->rules = (limni_rules){.weights = baker->context.desc.weights,
                                  .boundary = baker->context.desc.boundary,
+                                 .creases = baker->context.desc.creases,
+                                 .creasing = baker->context.desc.creasing,
                                  .normals = baker->context.desc.normals};
     return baker;
 }
@@ -51,18 +53,32 @@ static char *copy_name(limni_context *context, const char *name) {
     return copy;
 }
 
-/// The options, and what they leave to the mesh. It is edge-only in the end, or edge-and-corner.
-static limni_rules rules_for(limni_context *context, const limni_rules *options,
-                             const limni_mesh *mesh) {
+/// The options, and what they leave to the mesh.
+static limni_rules rules_for(const limni_rules *options, const limni_mesh *mesh) {
     limni_rules rules = *options;
     if (rules.boundary == LIMN_BOUNDARY_DEFAULT) rules.boundary = mesh->boundary;
-    if (rules.boundary == LIMN_BOUNDARY_NONE)
-        limni_note(context,
-                   "%s: without boundary interpolation, as asked for, is not supported "
-                   "yet: baked as edge-only",
-                   mesh->path ? mesh->path : mesh->name);
-    if (rules.boundary != LIMN_BOUNDARY_EDGE_AND_CORNER) rules.boundary = LIMN_BOUNDARY_EDGE_ONLY;
+    if (rules.boundary == LIMN_BOUNDARY_DEFAULT) rules.boundary = LIMN_BOUNDARY_EDGE_ONLY;
+    if (rules.creasing == LIMN_CREASING_DEFAULT) rules.creasing = mesh->creasing;
+    if (rules.creasing == LIMN_CREASING_DEFAULT) rules.creasing = LIMN_CREASING_UNIFORM;
     return rules;
+}
+
+static const char *place_of(const limni_mesh *mesh) {
+    return mesh->path ? mesh->path : mesh->name;
+}
+
+/// What the rules make of the mesh before it is classified.
+static limn_bake_status apply_rules(limni_context *context, const limni_rules *rules,
+                                    limni_mesh *mesh) {
+    if (rules->creases == LIMN_CREASES_LOMONT && limni_has_sharpness(mesh))
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                          "%s: the mesh has sharp features, and Lomont's rules for them are not "
+                          "supported yet",
+                          place_of(mesh));
+    if (rules->boundary == LIMN_BOUNDARY_NONE) limni_mesh_open_boundary(mesh);
+    if (mesh->hole_count == mesh->face_count)
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: all faces are holes", place_of(mesh));
+    return LIMN_BAKE_OK;
 }
 
 static void release_source(limni_context *context, const limni_source *source) {
@@ -102,7 +118,8 @@ static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     baker->blob = NULL;
     limni_mesh mesh;
     LIMNI_TRY(limni_mesh_build(context, source, &mesh));
-    const limni_rules rules = rules_for(context, &baker->rules, &mesh);
+    const limni_rules rules = rules_for(&baker->rules, &mesh);
+    LIMNI_TRY(apply_rules(context, &rules, &mesh));
     LIMNI_TRY(limni_patches_build(context, &mesh, &rules, &baker->classes,
                                   &baker->meshes[baker->mesh_count]));
     baker->mesh_count++;

@@ -113,15 +113,17 @@ typedef float slot_columns[3][ROW_COUNT];
 
 /// The columns of a slot along one edge. The neighbour has the positions in the opposite order, and
 /// the tangents with the opposite sign as well.
-static uint64_t print_edge(float (*columns)[ROW_COUNT], uint32_t table_count, uint32_t edge,
-                           bool along) {
-    const limn_domain *const domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE);
-    uint64_t hash = 0;
-    bool any = false;
-    for (uint32_t table = 0; table < table_count; table++)
-        hash = print_column(hash, columns[table], domain->edge_rows[edge], along,
-                            table > 0 && !along, &any);
-    return any ? hash : 0;
+static limni_edge_print print_edge(float (*columns)[ROW_COUNT], uint32_t table_count, uint32_t edge,
+                                   bool along) {
+    const uint16_t *const rows = limn_domain_get(LIMN_DOMAIN_TRIANGLE)->edge_rows[edge];
+    bool any = false, any_tangent = false;
+    limni_edge_print print = {.positions = print_column(0, columns[0], rows, along, false, &any)};
+    for (uint32_t table = 1; table < table_count; table++)
+        print.tangents =
+            print_column(print.tangents, columns[table], rows, along, !along, &any_tangent);
+    if (!any) print.positions = 0;
+    if (!any_tangent) print.tangents = 0;
+    return print;
 }
 
 /// Finds the columns that are not zero everywhere.

@@ -16,11 +16,15 @@ enum {
     LIMNI_SLOT_UNUSED = 0xffff, ///< of a control point without a column
 };
 
-/// One column of a table, along one edge of the triangle, as a number: 0 if it is zero there. Two
+/// What one column says along one edge of the triangle, as numbers: 0 if it is zero there. Two
 /// classes agree on an edge if their columns along it do.
+typedef struct limni_edge_print {
+    uint64_t positions, tangents;
+} limni_edge_print;
+
 typedef struct limni_edge_prints {
-    uint64_t along[3];   ///< read in the direction of edge e
-    uint64_t against[3]; ///< read the other way, as the neighbour sees it
+    limni_edge_print along[3];   ///< read in the direction of edge e
+    limni_edge_print against[3]; ///< read the other way, as the neighbour sees it
 } limni_edge_prints;
 
 /// A stencil table.

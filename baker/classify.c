@@ -6,13 +6,15 @@
 enum {
     /// check_size() refuses faces whose rings have more entries in all.
     RING_MAX = LIMNI_LOCAL_BASE_MAX,
-    KEY_MAX = 6 + 3 * RING_MAX
+    KEY_MAX = 9 + 3 * RING_MAX
 };
 
 static limn_bake_status allocate_base(limni_context *context, limni_local_base *base) {
     base->controls = limni_allocate(context, 3 * RING_MAX + 3, sizeof *base->controls);
     base->key = limni_allocate(context, KEY_MAX, sizeof *base->key);
-    if (!base->controls || !base->key) return LIMN_BAKE_MEMORY;
+    base->edges = limni_allocate(context, RING_MAX, sizeof *base->edges);
+    base->beyond = limni_allocate(context, RING_MAX, sizeof *base->beyond);
+    if (!base->controls || !base->key || !base->edges || !base->beyond) return LIMN_BAKE_MEMORY;
     for (int corner = 0; corner < 3; corner++) {
         limni_star *const star = &base->neighbourhood.corners[corner];
         star->ring = limni_allocate(context, RING_MAX, sizeof *star->ring);
@@ -30,16 +32,20 @@ limn_bake_status limni_classifier_begin(limni_context *context, limni_classifier
         .marks = limni_allocate_zeroed(context, mesh->control_count, sizeof(uint32_t)),
     };
     if (!classifier->slots || !classifier->marks) return LIMN_BAKE_MEMORY;
+    LIMNI_TRY(limni_mesh_sharpness_begin(context, mesh, rules, &classifier->sharpness));
     LIMNI_TRY(allocate_base(context, &classifier->bases[0]));
     return allocate_base(context, &classifier->bases[1]);
 }
 
 void limni_classifier_end(limni_context *context, limni_classifier *classifier) {
+    limni_mesh_sharpness_end(context, &classifier->sharpness);
     limni_release(context, classifier->slots);
     limni_release(context, classifier->marks);
     for (int b = 0; b < 2; b++) {
         limni_release(context, classifier->bases[b].controls);
         limni_release(context, classifier->bases[b].key);
+        limni_release(context, classifier->bases[b].edges);
+        limni_release(context, classifier->bases[b].beyond);
         for (int corner = 0; corner < 3; corner++)
             limni_release(context, classifier->bases[b].neighbourhood.corners[corner].ring);
     }
@@ -55,39 +61,76 @@ static uint32_t slot_of(limni_classifier *classifier, limni_local_base *base, ui
     return classifier->slots[control];
 }
 
-/// Walks the ring of the face's corner. A closed ring starts at the face's own edge, an open one at
-/// the boundary.
+/// The ring of the face's corner in slots. A closed ring starts at the face's own edge, an open one
+/// at the boundary.
 static void walk_ring(limni_classifier *classifier, limni_local_base *base, uint32_t half_edge,
                       limni_star *star) {
-    const limni_mesh *const mesh = classifier->mesh;
-    const uint32_t control = limni_half_edge_start(mesh, half_edge);
-    star->closed = !limni_is_boundary(mesh, control);
-    star->count = 0;
-    uint32_t *const ring = star->ring;
-    const uint32_t start = star->closed ? half_edge : mesh->first[control];
-    uint32_t turning = start, last;
-    do {
-        ring[star->count++] = slot_of(classifier, base, limni_half_edge_end(mesh, turning));
-        last = turning;
-        turning = limni_half_edge_turn(mesh, turning);
-    } while (turning != start && turning != LIMNI_NONE);
-    if (!star->closed) {
-        const uint32_t end = limni_half_edge_start(mesh, limni_half_edge_previous(last));
-        ring[star->count++] = slot_of(classifier, base, end);
-    }
-    star->rule = limni_loop_rule(classifier->rules, star->closed, star->count);
+    limni_mesh_star(classifier->mesh, &classifier->sharpness, classifier->rules, half_edge, star);
+    for (uint32_t r = 0; r < star->count; r++)
+        star->ring[r] = slot_of(classifier, base, star->ring[r]);
 }
 
-static void write_key(limni_local_base *base) {
+/// Whether an edge is sharp that is not on the boundary.
+static bool has_creases(const limni_neighbourhood *neighbourhood) {
+    bool any = false;
+    for (int corner = 0; corner < 3; corner++) {
+        const limni_star *const star = &neighbourhood->corners[corner];
+        for (uint32_t r = 0; star->edges && r < star->count; r++) {
+            const bool inside = limni_star_has_left(star, r) && limni_star_has_right(star, r);
+            any |= inside && star->edges[r] > 0;
+        }
+    }
+    return any;
+}
+
+/// Walks all three rings.
+static void walk_rings(limni_classifier *classifier, limni_local_base *base, uint32_t face) {
+    limni_neighbourhood *const neighbourhood = &base->neighbourhood;
+    uint32_t first = 0;
+    for (uint32_t corner = 0; corner < 3; corner++) {
+        limni_star *const star = &neighbourhood->corners[corner];
+        star->edges = base->edges + first;
+        star->beyond = base->beyond + first;
+        walk_ring(classifier, base, 3 * face + (corner + base->rotation) % 3, star);
+        first += star->count;
+    }
+    if (has_creases(neighbourhood)) return;
+    for (uint32_t corner = 0; corner < 3; corner++)
+        neighbourhood->corners[corner].edges = neighbourhood->corners[corner].beyond = NULL;
+}
+
+enum { KEY_RULE = 1, KEY_CREASES = 3, KEY_CHAIKIN = 4 }; // bits
+
+/// What there is at a corner, without the sharpness.
+static uint32_t key_flags(const limni_star *star, const limni_rules *rules, bool tagged) {
+    const limni_vertex_rule rule = limni_star_feature(star).rule;
+    const bool chaikin = rules->creasing == LIMN_CREASING_CHAIKIN;
+    return (uint32_t)star->closed | (uint32_t)rule << KEY_RULE | (uint32_t)tagged << KEY_CREASES |
+           (uint32_t)(tagged && chaikin) << KEY_CHAIKIN;
+}
+
+static uint32_t *append(uint32_t *key, const uint32_t *words, uint32_t count) {
+    memcpy(key, words, count * sizeof *key);
+    return key + count;
+}
+
+static void write_key(limni_local_base *base, const limni_rules *rules) {
     const limni_star *const corners = base->neighbourhood.corners;
     uint32_t *key = base->key;
+    bool tagged = corners[0].edges;
+    for (int corner = 0; corner < 3; corner++)
+        tagged |= limni_is_semi_sharp(corners[corner].sharpness);
     for (int corner = 0; corner < 3; corner++)
         *key++ = corners[corner].count;
     for (int corner = 0; corner < 3; corner++)
-        *key++ = (uint32_t)corners[corner].closed | (uint32_t)corners[corner].rule << 1;
-    for (int corner = 0; corner < 3; corner++) {
-        memcpy(key, corners[corner].ring, corners[corner].count * sizeof *key);
-        key += corners[corner].count;
+        *key++ = key_flags(&corners[corner], rules, tagged);
+    for (int corner = 0; corner < 3; corner++)
+        key = append(key, corners[corner].ring, corners[corner].count);
+    for (int corner = 0; corner < 3 && tagged; corner++) {
+        *key++ = corners[corner].sharpness;
+        if (!corners[corner].edges) continue;
+        key = append(key, corners[corner].edges, corners[corner].count);
+        key = append(key, corners[corner].beyond, corners[corner].count);
     }
     base->key_size = (uint32_t)(key - base->key);
 }
@@ -102,14 +145,12 @@ static void build_base(limni_classifier *classifier, limni_local_base *base, uin
     base->neighbourhood.control_count = 0;
     for (uint32_t corner = 0; corner < 3; corner++)
         slot_of(classifier, base, classifier->mesh->faces[face][(corner + rotation) % 3]);
-    for (uint32_t corner = 0; corner < 3; corner++)
-        walk_ring(classifier, base, 3 * face + (corner + rotation) % 3,
-                  &base->neighbourhood.corners[corner]);
-    write_key(base);
+    walk_rings(classifier, base, face);
+    write_key(base, classifier->rules);
 }
 
 static int compare_keys(const limni_local_base *a, const limni_local_base *b) {
-    // The valences come first, so keys of different size differ before the shorter one ends.
+    // Keys of different size differ before the shorter one ends: in the valences, or in the flags.
     for (uint32_t k = 0; k < a->key_size; k++) {
         if (a->key[k] != b->key[k]) return a->key[k] < b->key[k] ? -1 : 1;
     }

@@ -3,7 +3,7 @@
  * Topology classes: faces whose surroundings are the same up to naming share one stencil table.
  *
  * The key of a face is its whole 1-neighbourhood in canonical form: valences and boundary status of
- * the corners, then the rings as slots. Slots are given in the order of a walk around the corners,
+ * the corners, then the rings as slots, and where something is sharp inside, all sharpness. Slots are given in the order of a walk around the corners,
  * so a control point that occurs in two rings, as on small meshes, shows in the key. Canonical
  * rotation: where two valences are equal, the third comes first, so that a mirror line, if there is
  * one, goes through the first corner; otherwise Brickhill's, lowest valence first. Ties are decided
@@ -13,7 +13,7 @@
 #define LIMNI_CLASSIFY_H
 
 #include "limn/format.h"
-#include "mesh.h"
+#include "mesh_sharpness.h"
 #include "subdivide.h"
 
 /// The corners of a face may have this many edges in all.
@@ -22,6 +22,7 @@
 /// The surroundings of one face in one mesh.
 typedef struct limni_local_base {
     limni_neighbourhood neighbourhood;
+    limni_sharpness *edges, *beyond; ///< what the neighbourhood has if there are sharp edges
     uint32_t rotation;  ///< corner c of the patch is corner (c + rotation) mod 3 of the face
     uint32_t *controls; ///< [control_count] control points by slot
     uint32_t *key;      ///< [key_size]
@@ -32,6 +33,7 @@ typedef struct limni_local_base {
 typedef struct limni_classifier {
     const limni_mesh *mesh;
     const limni_rules *rules;
+    limni_mesh_sharpness sharpness;
     uint32_t *slots; ///< [control_count] the slot of a control point, valid where marks match
     uint32_t *marks; ///< [control_count]
     uint32_t mark;   ///< of the current local base

@@ -19,8 +19,16 @@ static const char help[] =
     "  -o, --output FILE     the file to write\n"
     "      --weights NAME    vertex weights: loop (default) or warren\n"
     "      --boundary NAME   edge-only: boundaries are smooth curves; edge-and-corner: boundary\n"
-    "                        vertices of a single face stay in place. Default: what the mesh asks\n"
-    "                        for (t interpolateboundary in OBJ), otherwise edge-only\n"
+    "                        vertices of a single face stay in place; none: faces at a boundary "
+    "are\n"
+    "                        left out. Default: what the mesh asks for (t interpolateboundary in\n"
+    "                        OBJ), otherwise edge-only\n"
+    "      --creases NAME    the rules for sharp edges and vertices: opensubdiv (default) or "
+    "lomont,\n"
+    "                        which is not supported yet\n"
+    "      --creasing NAME   how sharpness falls: uniform, or chaikin. Default: what the mesh "
+    "asks\n"
+    "                        for (t creasemethod in OBJ), otherwise uniform\n"
     "      --normals NAME    none (default), or exact: store tangents of the limit surface\n"
     "      --repair[=STEPS]  mend what would be refused, and say so; STEPS of, separated by "
     "commas:\n"
@@ -66,12 +74,21 @@ static void print_progress(void *user, const char *step, uint32_t done, uint32_t
     fflush(stderr);
 }
 
-enum { OPTION_WEIGHTS = 256, OPTION_BOUNDARY, OPTION_NORMALS, OPTION_REPAIR };
+enum {
+    OPTION_WEIGHTS = 256,
+    OPTION_BOUNDARY,
+    OPTION_CREASES,
+    OPTION_CREASING,
+    OPTION_NORMALS,
+    OPTION_REPAIR
+};
 
 static const struct option options[] = {
     {"output", required_argument, NULL, 'o'},
     {"weights", required_argument, NULL, OPTION_WEIGHTS},
     {"boundary", required_argument, NULL, OPTION_BOUNDARY},
+    {"creases", required_argument, NULL, OPTION_CREASES},
+    {"creasing", required_argument, NULL, OPTION_CREASING},
     {"normals", required_argument, NULL, OPTION_NORMALS},
     {"repair", optional_argument, NULL, OPTION_REPAIR},
     {"quiet", no_argument, NULL, 'q'},
@@ -79,34 +96,56 @@ static const struct option options[] = {
     {0},
 };
 
-/// The index of `text` in a list of two names, or -1.
-static int choose(const char *text, const char *first, const char *second) {
-    if (strcmp(text, first) == 0) return 0;
-    return strcmp(text, second) == 0 ? 1 : -1;
+/// The options that choose a name, and what is said when there is none such.
+typedef struct choice {
+    const char *names[4]; ///< up to a NULL
+    const char *error;
+} choice;
+
+static const choice weights = {{"loop", "warren"}, "there are no weights '%s'"};
+static const choice boundaries = {{"edge-only", "edge-and-corner", "none"},
+                                  "there is no boundary rule '%s'"};
+static const choice creases = {{"opensubdiv", "lomont"}, "there are no crease rules '%s'"};
+static const choice creasings = {{"uniform", "chaikin"}, "there is no creasing method '%s'"};
+static const choice normals = {{"none", "exact"}, "there are no normals '%s'"};
+
+/// Sets *chosen to `first` for the first name, and so on.
+static int choose(const choice *from, int first, int *chosen) {
+    for (int n = 0; from->names[n]; n++) {
+        if (strcmp(optarg, from->names[n]) != 0) continue;
+        *chosen = first + n;
+        return LIMNI_EXIT_OK;
+    }
+    return limni_usage_error("bake", from->error, optarg);
 }
 
 static int parse_option(int option, arguments *given) {
-    int choice;
+    limn_bake_desc *const desc = &given->desc;
+    int chosen = 0, status = LIMNI_EXIT_OK;
     switch (option) {
     case 'o':
         given->output = optarg;
         return LIMNI_EXIT_OK;
     case OPTION_WEIGHTS:
-        choice = choose(optarg, "loop", "warren");
-        if (choice < 0) return limni_usage_error("bake", "there are no weights '%s'", optarg);
-        given->desc.weights = (limn_weights)choice;
-        return LIMNI_EXIT_OK;
+        status = choose(&weights, LIMN_WEIGHTS_LOOP, &chosen);
+        desc->weights = (limn_weights)chosen;
+        return status;
     case OPTION_BOUNDARY:
-        choice = choose(optarg, "edge-only", "edge-and-corner");
-        if (choice < 0) return limni_usage_error("bake", "there is no boundary rule '%s'", optarg);
-        given->desc.boundary =
-            choice == 0 ? LIMN_BOUNDARY_EDGE_ONLY : LIMN_BOUNDARY_EDGE_AND_CORNER;
-        return LIMNI_EXIT_OK;
+        status = choose(&boundaries, LIMN_BOUNDARY_EDGE_ONLY, &chosen);
+        desc->boundary = (limn_boundary)chosen;
+        return status;
+    case OPTION_CREASES:
+        status = choose(&creases, LIMN_CREASES_OPENSUBDIV, &chosen);
+        desc->creases = (limn_creases)chosen;
+        return status;
+    case OPTION_CREASING:
+        status = choose(&creasings, LIMN_CREASING_UNIFORM, &chosen);
+        desc->creasing = (limn_creasing)chosen;
+        return status;
     case OPTION_NORMALS:
-        choice = choose(optarg, "none", "exact");
-        if (choice < 0) return limni_usage_error("bake", "there are no normals '%s'", optarg);
-        given->desc.normals = (limn_normals)choice;
-        return LIMNI_EXIT_OK;
+        status = choose(&normals, LIMN_NORMALS_NONE, &chosen);
+        desc->normals = (limn_normals)chosen;
+        return status;
     case OPTION_REPAIR:
         if (!limni_parse_repair(optarg, &given->desc.repair))
             return limni_usage_error("bake", "cannot repair '%s'", optarg);

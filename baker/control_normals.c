@@ -1,107 +1,204 @@
 /* SPDX-License-Identifier: MIT */
 #include "control_normals.h"
 
+#include "subdivide.h"
+
 #include <string.h>
 
-/// The masks that have been written: by rule and valence.
-typedef struct mask_list {
-    uint32_t *first_weights; ///< [3][valence_max + 1], LIMNI_NONE where there is none yet
+/// What builds them.
+typedef struct builder {
+    limni_context *context;
+    const limni_mesh *mesh;
+    const limni_mesh_sharpness *sharpness;
+    const limni_rules *rules;
+    limni_control_normals *normals;
+    uint64_t weight_capacity;
+    uint32_t side_capacity;
+    uint32_t *first_weights; ///< [rules][valence_max + 1] masks where no edge is sharp but the
+                             ///< boundary; LIMNI_NONE where there is none yet
     uint32_t valence_max;
-    uint64_t capacity; ///< of the weights
-    limni_fixed *along, *across;
-} mask_list;
+    limni_sharpness *edges, *beyond; ///< [valence_max] of a star
+    limni_fixed *along, *across;     ///< [valence_max + 1]
+} builder;
 
-static limn_bake_status begin_masks(limni_context *context, const limni_mesh *mesh,
-                                    mask_list *masks) {
-    *masks = (mask_list){0};
-    for (uint32_t c = 0; c < mesh->control_count; c++) {
-        if (mesh->valences[c] > masks->valence_max) masks->valence_max = mesh->valences[c];
+enum { RULE_COUNT = 3 };
+
+static limn_bake_status begin(builder *b) {
+    for (uint32_t c = 0; c < b->mesh->control_count; c++) {
+        if (b->mesh->valences[c] > b->valence_max) b->valence_max = b->mesh->valences[c];
     }
-    const size_t count = (size_t)masks->valence_max + 1;
-    masks->first_weights = limni_allocate(context, 3 * count, sizeof *masks->first_weights);
-    masks->along = limni_allocate(context, count, sizeof *masks->along);
-    masks->across = limni_allocate(context, count, sizeof *masks->across);
-    if (!masks->first_weights || !masks->along || !masks->across) return LIMN_BAKE_MEMORY;
-    memset(masks->first_weights, 0xff, 3 * count * sizeof *masks->first_weights);
+    const size_t count = (size_t)b->valence_max + 1;
+    b->first_weights = limni_allocate(b->context, RULE_COUNT * count, sizeof *b->first_weights);
+    b->edges = limni_allocate(b->context, count, sizeof *b->edges);
+    b->beyond = limni_allocate(b->context, count, sizeof *b->beyond);
+    b->along = limni_allocate(b->context, count, sizeof *b->along);
+    b->across = limni_allocate(b->context, count, sizeof *b->across);
+    if (!b->first_weights || !b->edges || !b->beyond || !b->along || !b->across)
+        return LIMN_BAKE_MEMORY;
+    memset(b->first_weights, 0xff, RULE_COUNT * count * sizeof *b->first_weights);
     return LIMN_BAKE_OK;
+}
+
+static void end(const builder *b) {
+    limni_release(b->context, b->first_weights);
+    limni_release(b->context, b->edges);
+    limni_release(b->context, b->beyond);
+    limni_release(b->context, b->along);
+    limni_release(b->context, b->across);
 }
 
 /// Appends the two masks of a star to the weights: those of the ring. Masks sum to zero, so sums
 /// relative to the centre need no weight for it.
-static limn_bake_status write_mask(limni_context *context, const limni_star *star, mask_list *masks,
-                                   limni_control_normals *normals) {
+static limn_bake_status write_mask(builder *b, const limni_star *star, uint32_t half_steps) {
+    limni_control_normals *const normals = b->normals;
     const uint64_t size = 2 * (uint64_t)star->count;
-    if (normals->weight_count + size > masks->capacity) {
-        masks->capacity = 2 * (masks->capacity + size);
+    if (normals->weight_count + size > b->weight_capacity) {
+        b->weight_capacity = 2 * (b->weight_capacity + size);
         float *const weights =
-            limni_resize(context, normals->weights, masks->capacity, sizeof *weights);
+            limni_resize(b->context, normals->weights, b->weight_capacity, sizeof *weights);
         if (!weights) return LIMN_BAKE_MEMORY;
         normals->weights = weights;
     }
-    limni_loop_tangent_masks(star, 0, masks->along, masks->across);
+    LIMNI_TRY(limni_star_tangents(b->context, b->rules, star, half_steps, b->along, b->across));
     float *weight = normals->weights + normals->weight_count;
     for (uint32_t w = 0; w < star->count; w++) {
-        weight[w] = limni_fixed_to_float(masks->along[1 + w]);
-        weight[star->count + w] = limni_fixed_to_float(masks->across[1 + w]);
+        weight[w] = limni_fixed_to_float(b->along[1 + w]);
+        weight[star->count + w] = limni_fixed_to_float(b->across[1 + w]);
     }
     normals->weight_count += size;
     return LIMN_BAKE_OK;
 }
 
-/// The ring of a control point, counter-clockwise. Returns its size.
-static uint32_t write_ring(const limni_mesh *mesh, uint32_t control, uint32_t *ring) {
-    const uint32_t start = mesh->first[control];
-    uint32_t count = 0, turning = start, last;
-    do {
-        ring[count++] = limni_half_edge_end(mesh, turning);
-        last = turning;
-        turning = limni_half_edge_turn(mesh, turning);
-    } while (turning != start && turning != LIMNI_NONE);
-    if (turning == LIMNI_NONE)
-        ring[count++] = limni_half_edge_start(mesh, limni_half_edge_previous(last));
-    return count;
+static limn_bake_status append_side(builder *b, uint32_t control, const limn_file_normal *record) {
+    limni_control_normals *const normals = b->normals;
+    if (normals->side_count == b->side_capacity) {
+        b->side_capacity += b->side_capacity / 2 + 16;
+        limn_file_side *const sides =
+            limni_resize(b->context, normals->sides, b->side_capacity, sizeof *sides);
+        if (!sides) return LIMN_BAKE_MEMORY;
+        normals->sides = sides;
+    }
+    normals->sides[normals->side_count++] = (limn_file_side){control, *record};
+    return LIMN_BAKE_OK;
 }
 
-static limn_bake_status write_normal(limni_context *context, const limni_mesh *mesh,
-                                     const limni_rules *rules, uint32_t control, mask_list *masks,
-                                     limni_control_normals *normals) {
-    limn_file_normal *const record = &normals->records[control];
-    *record = (limn_file_normal){.first_ring = (uint32_t)normals->ring_size};
-    if (mesh->first[control] == LIMNI_NONE) return LIMN_BAKE_OK;
+// ---- Sides
 
-    limni_star star = {.closed = !limni_is_boundary(mesh, control)};
-    star.ring = normals->ring + normals->ring_size;
-    star.count = write_ring(mesh, control, star.ring);
-    star.rule = limni_loop_rule(rules, star.closed, star.count);
-    uint32_t *const first =
-        &masks->first_weights[star.rule * (masks->valence_max + 1) + star.count];
-    if (*first == LIMNI_NONE) {
-        *first = (uint32_t)normals->weight_count;
-        LIMNI_TRY(write_mask(context, &star, masks, normals));
+/// The parts of the surface around a control point that have normals of their own.
+static uint32_t count_sides(const limni_star *star, const limni_feature *last) {
+    if (last->rule == LIMNI_VERTEX_CORNER) return star->closed ? star->count : star->count - 1;
+    return last->rule == LIMNI_VERTEX_CREASE && star->closed ? 2 : 1;
+}
+
+/// The place in the ring where a side starts.
+static uint32_t side_start(const limni_feature *last, uint32_t side) {
+    if (last->rule == LIMNI_VERTEX_CORNER) return side;
+    return last->rule == LIMNI_VERTEX_CREASE ? last->ends[side] : 0;
+}
+
+/// The side of the face to the left of ring vertex r.
+static uint32_t side_of(const limni_star *star, const limni_feature *last, uint32_t r) {
+    if (count_sides(star, last) == 1) return 0;
+    if (last->rule == LIMNI_VERTEX_CORNER) return r;
+    return r >= last->ends[0] && r < last->ends[1] ? 0 : 1;
+}
+
+/// Gives the corners of all faces around a control point their normals: its own, and those of its
+/// other sides, which come next.
+static void set_corners(const builder *b, uint32_t control, const limni_star *star,
+                        const limni_feature *last) {
+    const uint32_t next = b->mesh->control_count + b->normals->side_count;
+    const uint32_t face_count = star->closed ? star->count : star->count - 1;
+    uint32_t h = b->mesh->first[control];
+    for (uint32_t r = 0; r < face_count; r++) {
+        const uint32_t side = side_of(star, last, r);
+        b->normals->corners[h] = side == 0 ? control : next + side - 1;
+        h = limni_half_edge_turn(b->mesh, h);
     }
-    record->ring_count = star.count;
-    record->first_weight = *first;
+}
+
+// ---- Control points
+
+/// Whether no edge is sharp but the boundary, nor the vertex beyond what valence decides.
+static bool is_plain(const limni_star *star, const limni_feature *last) {
+    if (limni_star_decays(star) || count_sides(star, last) > 1) return false;
+    return last->rule != LIMNI_VERTEX_DART;
+}
+
+/// Writes the record of the first side, and appends those of others.
+static limn_bake_status write_sides(builder *b, uint32_t control, const limni_star *star) {
+    const limni_feature last = limni_star_last_feature(star);
+    limn_file_normal record = {.first_ring = (uint32_t)b->normals->ring_size,
+                               .ring_count = star->count};
+    uint32_t scratch = LIMNI_NONE;
+    uint32_t *const first = is_plain(star, &last)
+                                ? &b->first_weights[last.rule * (b->valence_max + 1) + star->count]
+                                : &scratch;
+    if (*first == LIMNI_NONE) {
+        *first = (uint32_t)b->normals->weight_count;
+        LIMNI_TRY(write_mask(b, star, 2 * side_start(&last, 0)));
+    }
+    record.first_weight = *first;
+    b->normals->records[control] = record;
+    if (b->normals->corners) set_corners(b, control, star, &last);
+    for (uint32_t side = 1; side < count_sides(star, &last); side++) {
+        record.first_weight = (uint32_t)b->normals->weight_count;
+        LIMNI_TRY(write_mask(b, star, 2 * side_start(&last, side)));
+        LIMNI_TRY(append_side(b, control, &record));
+    }
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status write_normal(builder *b, uint32_t control) {
+    limni_control_normals *const normals = b->normals;
+    if (b->mesh->first[control] == LIMNI_NONE) {
+        normals->records[control] = (limn_file_normal){.first_ring = (uint32_t)normals->ring_size};
+        return LIMN_BAKE_OK;
+    }
+    limni_star star = {
+        .ring = normals->ring + normals->ring_size, .edges = b->edges, .beyond = b->beyond};
+    limni_mesh_star(b->mesh, b->sharpness, b->rules, b->mesh->first[control], &star);
+    LIMNI_TRY(write_sides(b, control, &star));
     normals->ring_size += star.count;
     return LIMN_BAKE_OK;
 }
 
+static limn_bake_status allocate_normals(builder *b) {
+    const limni_mesh *const mesh = b->mesh;
+    uint64_t ring_size = 0;
+    bool tagged = b->sharpness->edges;
+    for (uint32_t c = 0; c < mesh->control_count; c++) {
+        ring_size += mesh->valences[c];
+        tagged |= b->sharpness->vertices[c] > 0;
+    }
+    const size_t corner_count = 3 * (size_t)mesh->face_count;
+    *b->normals = (limni_control_normals){
+        .records = limni_allocate(b->context, mesh->control_count, sizeof *b->normals->records),
+        .ring = limni_allocate(b->context, (size_t)ring_size, sizeof *b->normals->ring),
+        .corners = tagged ? limni_allocate(b->context, corner_count, sizeof(uint32_t)) : NULL,
+    };
+    return b->normals->records && b->normals->ring && (b->normals->corners || !tagged)
+               ? LIMN_BAKE_OK
+               : LIMN_BAKE_MEMORY;
+}
+
 limn_bake_status limni_control_normals_build(limni_context *context, const limni_mesh *mesh,
+                                             const limni_mesh_sharpness *sharpness,
                                              const limni_rules *rules,
                                              limni_control_normals *normals) {
-    mask_list masks;
-    uint64_t ring_size = 0;
+    builder b = {.context = context,
+                 .mesh = mesh,
+                 .sharpness = sharpness,
+                 .rules = rules,
+                 .normals = normals};
+    LIMNI_TRY(allocate_normals(&b));
+    LIMNI_TRY(begin(&b));
     for (uint32_t c = 0; c < mesh->control_count; c++)
-        ring_size += mesh->valences[c];
-    *normals = (limni_control_normals){
-        .records = limni_allocate(context, mesh->control_count, sizeof *normals->records),
-        .ring = limni_allocate(context, (size_t)ring_size, sizeof *normals->ring),
-    };
-    if (!normals->records || !normals->ring) return LIMN_BAKE_MEMORY;
-    LIMNI_TRY(begin_masks(context, mesh, &masks));
-    for (uint32_t c = 0; c < mesh->control_count; c++)
-        LIMNI_TRY(write_normal(context, mesh, rules, c, &masks, normals));
-    limni_release(context, masks.first_weights);
-    limni_release(context, masks.along);
-    limni_release(context, masks.across);
+        LIMNI_TRY(write_normal(&b, c));
+    end(&b);
+    if (normals->side_count == 0) {
+        limni_release(context, normals->corners);
+        normals->corners = NULL;
+    }
     return LIMN_BAKE_OK;
 }

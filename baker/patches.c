@@ -169,16 +169,17 @@ static limn_bake_status list_controls(limni_context *context, const limni_classe
 // ---- Agreement
 
 /// Adds up what one side says about an edge: which control points move its rows, and how. The sum
-/// does not depend on the order of the slots.
+/// does not depend on the order of the slots. On a crease both sides have tangents of their own.
 static uint64_t sum_edge(const limni_classes *classes, const limni_class_key *key,
-                         const limni_local_base *base, uint32_t edge, bool along) {
+                         const limni_local_base *base, uint32_t edge, bool along, bool crease) {
     const limni_class *const class = &classes->items[key->class_index];
     uint64_t sum = 0;
     for (uint32_t slot = 0; slot < base->neighbourhood.control_count; slot++) {
         if (key->slots[slot] == LIMNI_SLOT_UNUSED) continue;
         const limni_edge_prints *const prints = &class->prints[key->slots[slot]];
-        const uint64_t print = along ? prints->along[edge] : prints->against[edge];
-        if (print) sum += limni_hash_mix(print, base->controls[slot]);
+        const limni_edge_print print = along ? prints->along[edge] : prints->against[edge];
+        if (print.positions) sum += limni_hash_mix(print.positions, base->controls[slot]);
+        if (print.tangents && !crease) sum -= limni_hash_mix(print.tangents, base->controls[slot]);
     }
     return sum;
 }
@@ -197,7 +198,9 @@ static void sum_edges(const limni_mesh *mesh, const limni_classes *classes,
         for (uint32_t h = 3 * face; h < 3 * face + 3; h++) {
             const uint32_t edge = (h % 3 + 3 - rotation) % 3;
             const bool along = mesh->pairs[h] == LIMNI_NONE || h < mesh->pairs[h];
-            sums[h] = sum_edge(classes, &classes->keys[assigned->keys[face]], base, edge, along);
+            const bool crease = limni_is_crease(&classifier->sharpness, mesh, h);
+            sums[h] =
+                sum_edge(classes, &classes->keys[assigned->keys[face]], base, edge, along, crease);
         }
     }
 }
@@ -222,6 +225,47 @@ static limn_bake_status check_agreement(limni_context *context, const limni_mesh
     }
     limni_release(context, sums);
     return status;
+}
+
+// ---- Creases
+
+/// Which edges stay sharp, so that the surface has a normal on each side.
+static limn_bake_status list_creases(limni_context *context, const limni_mesh *mesh,
+                                     const limni_mesh_sharpness *sharpness,
+                                     limni_patches *patches) {
+    const uint32_t patch_count = patches->record.patch_count;
+    uint8_t *const creases = limni_allocate_zeroed(context, patch_count, 1);
+    bool any = false;
+    if (!creases) return LIMN_BAKE_MEMORY;
+    for (uint32_t h = 0; h < 3 * patch_count; h++) {
+        const uint32_t face = patches->faces[h / 3] >> 2, rotation = patches->faces[h / 3] & 3;
+        const bool crease = limni_is_crease(sharpness, mesh, 3 * face + (h + rotation) % 3);
+        creases[h / 3] |= (uint8_t)(crease << h % 3);
+        any |= crease;
+    }
+    if (any) patches->creases = creases;
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status list_corner_normals(limni_context *context, limni_patches *patches) {
+    const uint32_t corner_count = 3 * patches->record.patch_count;
+    if (!patches->normals.corners) return LIMN_BAKE_OK;
+    patches->corner_normals = limni_allocate(context, corner_count, sizeof(uint32_t));
+    if (!patches->corner_normals) return LIMN_BAKE_MEMORY;
+    for (uint32_t c = 0; c < corner_count; c++) {
+        const uint32_t face = patches->faces[c / 3] >> 2, rotation = patches->faces[c / 3] & 3;
+        patches->corner_normals[c] = patches->normals.corners[3 * face + (c + rotation) % 3];
+    }
+    limni_release(context, patches->normals.corners);
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status make_normals(limni_context *context, const limni_mesh *mesh,
+                                     const limni_mesh_sharpness *sharpness,
+                                     const limni_rules *rules, limni_patches *patches) {
+    if (rules->normals != LIMN_NORMALS_EXACT) return LIMN_BAKE_OK;
+    LIMNI_TRY(limni_control_normals_build(context, mesh, sharpness, rules, &patches->normals));
+    return list_corner_normals(context, patches);
 }
 
 // ---- All steps
@@ -254,7 +298,8 @@ limn_bake_status limni_patches_build(limni_context *context, const limni_mesh *m
     *patches = (limni_patches){
         .name = mesh->name,
         .controls = mesh->controls,
-        .boundary = rules->boundary,
+        .rules = *rules,
+        .sharp = limni_has_sharpness(mesh),
         .record = {.control_count = mesh->control_count,
                    .patch_count = mesh->face_count - mesh->hole_count,
                    .hole_count = mesh->hole_count},
@@ -268,10 +313,10 @@ limn_bake_status limni_patches_build(limni_context *context, const limni_mesh *m
     LIMNI_TRY(make_runs(context, mesh, classes, &assigned, patches));
     LIMNI_TRY(order_faces(context, mesh, classes, &assigned, patches));
     LIMNI_TRY(list_controls(context, classes, &assigned, &classifier, patches));
+    LIMNI_TRY(list_creases(context, mesh, &classifier.sharpness, patches));
+    LIMNI_TRY(make_normals(context, mesh, &classifier.sharpness, rules, patches));
     limni_classifier_end(context, &classifier);
     LIMNI_TRY(limni_edge_errors_build(context, mesh, classes, patches));
-    if (rules->normals == LIMN_NORMALS_EXACT)
-        LIMNI_TRY(limni_control_normals_build(context, mesh, rules, &patches->normals));
     limni_release(context, assigned.keys);
     limni_release(context, assigned.rotations);
     return LIMN_BAKE_OK;

@@ -9,7 +9,8 @@
 
 typedef struct limni_patches {
     const char *name;
-    limn_boundary boundary; ///< by which its classes were made
+    limni_rules rules; ///< by which its classes were made
+    bool sharp;        ///< whether it has tags of sharpness
     limn_file_mesh record;
     float (*controls)[3];
     limn_file_run *runs;
@@ -18,7 +19,9 @@ typedef struct limni_patches {
     uint8_t *slots;
     uint64_t slots_size;           ///< in bytes
     uint16_t *errors;              ///< [patch_count][3], see runtime/edge_error.h
+    uint8_t *creases;              ///< [patch_count] bit e: edge e stays sharp; NULL: none does
     limni_control_normals normals; ///< empty without normals
+    uint32_t *corner_normals;      ///< [patch_count][3] by its corners; NULL: its control points
 } limni_patches;
 
 /// Classifies every face of a mesh and lists its patches; adds the classes that are new. Checks

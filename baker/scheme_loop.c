@@ -1,16 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Loop subdivision (Loop 1987) with Loop's or Warren's weights, and cubic B-spline boundaries.
+ * Loop subdivision (Loop 1987) with Loop's or Warren's weights, and cubic B-spline creases and
+ * boundaries (Hoppe et al. 1994, with OpenSubdiv's rules at the ends of creases).
  * docs/design.md compares the formulas in print; several do not sum to 1.
  */
 #include "scheme.h"
-
-limni_vertex_rule limni_loop_rule(const limni_rules *rules, bool closed, uint32_t valence) {
-    if (closed) return LIMNI_VERTEX_SMOOTH;
-    if (rules->boundary == LIMN_BOUNDARY_EDGE_AND_CORNER && valence == 2)
-        return LIMNI_VERTEX_CORNER;
-    return LIMNI_VERTEX_CREASE;
-}
 
 /// Loop: b(n) / n with b(n) = (40 - (3 + 2 cos(2 pi / n))^2) / 64.
 static limni_fixed loop_weight(uint32_t n) {
@@ -38,14 +32,33 @@ static limni_fixed limit_ring_weight(const limni_rules *rules, uint32_t n) {
     return (limni_fixed)limni_wide_divide(eight_w << LIMNI_FIXED_BITS, divisor);
 }
 
-static void fill_mask(const limni_star *star, limni_fixed smooth, limni_fixed crease,
+/// What the masks of a feature give the ring.
+typedef struct ring_weights {
+    limni_fixed smooth; ///< every neighbour
+    limni_fixed crease; ///< both neighbours along it
+} ring_weights;
+
+static limni_fixed weight_of(const limni_feature *feature, ring_weights weights, uint32_t r) {
+    const bool on_crease = r == feature->ends[0] || r == feature->ends[1];
+    switch (feature->rule) {
+    case LIMNI_VERTEX_CREASE:
+        return on_crease ? weights.crease : 0;
+    case LIMNI_VERTEX_CORNER:
+        return 0;
+    default:
+        return weights.smooth;
+    }
+}
+
+static void fill_mask(const limni_transition *transition, ring_weights given, uint32_t count,
                       limni_fixed *weights) {
+    const limni_fixed rest = LIMNI_FIXED_ONE - transition->weight;
     limni_fixed centre = LIMNI_FIXED_ONE;
-    for (uint32_t r = 0; r < star->count; r++) {
-        const bool on_crease = r == 0 || r == star->count - 1;
-        limni_fixed weight = 0;
-        if (star->rule == LIMNI_VERTEX_SMOOTH) weight = smooth;
-        if (star->rule == LIMNI_VERTEX_CREASE && on_crease) weight = crease;
+    for (uint32_t r = 0; r < count; r++) {
+        limni_fixed weight = weight_of(&transition->now, given, r);
+        if (rest != 0)
+            weight = limni_fixed_multiply(transition->weight, weight) +
+                     limni_fixed_multiply(rest, weight_of(&transition->next, given, r));
         weights[1 + r] = weight;
         centre -= weight;
     }
@@ -54,11 +67,50 @@ static void fill_mask(const limni_star *star, limni_fixed smooth, limni_fixed cr
 
 void limni_loop_vertex_mask(const limni_rules *rules, const limni_star *star,
                             limni_fixed *weights) {
-    fill_mask(star, ring_weight(rules, star->count), limni_fixed_ratio(1, 8), weights);
+    const limni_transition transition = limni_star_transition(rules->creasing, star);
+    const ring_weights given = {ring_weight(rules, star->count), limni_fixed_ratio(1, 8)};
+    fill_mask(&transition, given, star->count, weights);
+}
+
+/// Powers of (5 - sqrt(21)) / 2, the smaller root of q^2 - 5 q + 1 = 0.
+static limni_fixed dart_power(uint32_t exponent) {
+    static const limni_fixed q = 240628728915490202;
+    limni_fixed power = LIMNI_FIXED_ONE;
+    for (; exponent > 0 && power > 0; exponent--)
+        power = limni_fixed_multiply(power, q);
+    return power;
+}
+
+/// Where a crease ends for ever. Its edge has the mask of a crease, so the smooth limit is not the
+/// limit: that is the left eigenvector for the eigenvalue 1. With the vertex's weight 1, neighbour j
+/// from the crease on has 8 w z(j), where 5 z(j) - z(j - 1) - z(j + 1) = 1 between z(0) = z(n) = 0,
+/// which z(j) = (1 - (q^j + q^(n - j)) / (1 + q^n)) / 3 solves; and the crease 2 w (1 + 2 z(1)).
+static void fill_dart_limit(const limni_rules *rules, const limni_star *star, uint32_t crease,
+                            limni_fixed *weights) {
+    const uint32_t n = star->count;
+    const limni_fixed w = ring_weight(rules, n), third = limni_fixed_ratio(1, 3);
+    limni_fixed sum = LIMNI_FIXED_ONE, centre = LIMNI_FIXED_ONE, first = 0;
+    for (uint32_t j = n; j-- > 0;) {
+        const limni_fixed powers =
+            limni_fixed_divide(dart_power(j) + dart_power(n - j), LIMNI_FIXED_ONE + dart_power(n));
+        const limni_fixed z = limni_fixed_multiply(third, LIMNI_FIXED_ONE - powers);
+        if (j == 1) first = z;
+        const limni_fixed share = j == 0 ? LIMNI_FIXED_ONE / 4 + first / 2 : z;
+        sum += weights[1 + (crease + j) % n] = limni_fixed_multiply(8 * w, share);
+    }
+    for (uint32_t r = 0; r < n; r++)
+        centre -= weights[1 + r] = limni_fixed_divide(weights[1 + r], sum);
+    weights[0] = centre;
 }
 
 void limni_loop_limit_mask(const limni_rules *rules, const limni_star *star, limni_fixed *weights) {
-    fill_mask(star, limit_ring_weight(rules, star->count), limni_fixed_ratio(1, 6), weights);
+    const limni_transition forever = {.now = limni_star_feature(star), .weight = LIMNI_FIXED_ONE};
+    const ring_weights given = {limit_ring_weight(rules, star->count), limni_fixed_ratio(1, 6)};
+    if (forever.now.rule == LIMNI_VERTEX_DART) {
+        fill_dart_limit(rules, star, forever.now.ends[0], weights);
+        return;
+    }
+    fill_mask(&forever, given, star->count, weights);
 }
 
 // ---- Tangents
@@ -74,18 +126,37 @@ static void smooth_tangents(const limni_star *star, uint32_t half_steps, limni_f
     }
 }
 
-/// Across a boundary, pointing into the surface: the left eigenvector of the boundary vertex's
+/// Places in a ring from `first` on, counter-clockwise.
+typedef struct sector {
+    uint32_t first, count;
+} sector;
+
+/// The side of a crease that starts at its edge `first`.
+static sector crease_side(const limni_star *star, uint32_t first) {
+    sector side = {.first = first, .count = 2};
+    for (uint32_t r = limni_star_left(star, first); limni_star_edge(star, r) == 0;
+         r = limni_star_left(star, r))
+        side.count++;
+    return side;
+}
+
+/// The weight of its vertex k.
+static limni_fixed *in_sector(const limni_star *star, sector s, uint32_t k, limni_fixed *weights) {
+    return &weights[1 + (s.first + k) % star->count];
+}
+
+/// Across a crease, pointing into its sector: the left eigenvector of the boundary vertex's
 /// subdivision matrix that is symmetric and sin(k z), z = pi / (n - 1), on the inner neighbours k.
 /// Its eigenvalue is 3/8 + cos(z) / 4; the weights of the ends and of the vertex solve the two
 /// equations that are left. For n = 3 and 4 these are the masks (-1; 0 1 0) and (-2; -1 2 2 -1).
 /// The mask in print for n >= 5 (Hoppe, Lomont) belongs to Hoppe's boundary rules and not to the
 /// cubic B-spline's. All times sin(z), so that no term is large.
-static void boundary_tangent(const limni_star *star, limni_fixed *across) {
+static void crease_tangent(const limni_star *star, sector s, limni_fixed *across) {
     const limni_fixed one = LIMNI_FIXED_ONE;
-    const uint32_t n = star->count;
+    const uint32_t n = s.count;
     if (n == 2) { // no inner neighbours: eigenvalue 1/4
         across[0] = -2 * one;
-        across[1] = across[2] = one;
+        *in_sector(star, s, 0, across) = *in_sector(star, s, 1, across) = one;
         return;
     }
     const limni_fixed_unit z = limni_fixed_turn(1, 2 * (n - 1));
@@ -99,30 +170,53 @@ static void boundary_tangent(const limni_star *star, limni_fixed *across) {
     const limni_fixed centre =
         limni_fixed_multiply(3 * (sum / 8), eigenvalue - one / 2) + square / 8;
     across[0] = limni_fixed_divide(centre, determinant);
-    across[1] = across[n] = limni_fixed_divide(end, determinant);
+    *in_sector(star, s, 0, across) = *in_sector(star, s, n - 1, across) =
+        limni_fixed_divide(end, determinant);
     for (uint32_t k = 1; k < n - 1; k++)
-        across[1 + k] = limni_fixed_multiply(z.sine, limni_fixed_turn(k, 2 * (n - 1)).sine);
+        *in_sector(star, s, k, across) =
+            limni_fixed_multiply(z.sine, limni_fixed_turn(k, 2 * (n - 1)).sine);
+}
+
+/// The tangents of the face that starts at ring vertex `first` are its edges. With a smooth edge
+/// between two faces, they are the sharp ones on both sides of it: the eigenvalue of what it has
+/// apart from them is 3/8 against their 1/2. Between more faces there is no tangent plane in the
+/// limit, as what the smooth edges have in common outlasts the sharp ones.
+static void corner_tangents(const limni_star *star, uint32_t first, limni_fixed *along,
+                            limni_fixed *across) {
+    uint32_t right = first, left = limni_star_left(star, first);
+    const uint32_t beyond = limni_star_left(star, left), before = limni_star_right(star, right);
+    const bool right_sharp = limni_star_edge(star, right) > 0;
+    const bool left_sharp = limni_star_edge(star, left) > 0;
+    if (right_sharp && !left_sharp && beyond != right && limni_star_edge(star, beyond) > 0)
+        left = beyond;
+    if (left_sharp && !right_sharp && before != left && limni_star_edge(star, before) > 0)
+        right = before;
+    along[0] = across[0] = -LIMNI_FIXED_ONE;
+    along[1 + right] = across[1 + left] = LIMNI_FIXED_ONE;
 }
 
 void limni_loop_tangent_masks(const limni_star *star, uint32_t half_steps, limni_fixed *along,
                               limni_fixed *across) {
-    if (star->rule == LIMNI_VERTEX_SMOOTH) {
+    const limni_vertex_rule rule = limni_star_feature(star).rule;
+    if (rule == LIMNI_VERTEX_SMOOTH || rule == LIMNI_VERTEX_DART) {
         smooth_tangents(star, half_steps, along, across);
         return;
     }
     for (uint32_t w = 0; w <= star->count; w++)
         along[w] = across[w] = 0;
-    along[1] = LIMNI_FIXED_ONE;
-    if (star->rule == LIMNI_VERTEX_CORNER) {
-        along[0] = across[0] = -LIMNI_FIXED_ONE;
-        across[star->count] = LIMNI_FIXED_ONE;
+    const uint32_t first = half_steps / 2;
+    if (rule == LIMNI_VERTEX_CORNER) {
+        corner_tangents(star, first, along, across);
     } else {
-        along[star->count] = -LIMNI_FIXED_ONE;
-        boundary_tangent(star, across);
+        const sector side = crease_side(star, first);
+        along[1 + first] = LIMNI_FIXED_ONE;
+        *in_sector(star, side, side.count - 1, along) = -LIMNI_FIXED_ONE;
+        crease_tangent(star, side, across);
     }
 }
 
-limni_edge_mask limni_loop_edge_mask(bool boundary) {
-    if (boundary) return (limni_edge_mask){.end = LIMNI_FIXED_ONE / 2};
-    return (limni_edge_mask){.end = 3 * (LIMNI_FIXED_ONE / 8), .opposite = LIMNI_FIXED_ONE / 8};
+limni_edge_mask limni_loop_edge_mask(limni_fixed sharp) {
+    // Between 3/8 and 1/8, and 1/2 and 0; in sharpness, eighths are exact.
+    return (limni_edge_mask){.end = 3 * (LIMNI_FIXED_ONE / 8) + sharp / 8,
+                             .opposite = (LIMNI_FIXED_ONE - sharp) / 8};
 }

@@ -21,7 +21,8 @@ typedef struct complex {
     uint32_t *
         edge_points[CORE_MAX]; ///< parallel to the rings: the vertex of the next level on that edge
     uint32_t *ring_pool;       ///< what rings and edge_points point into
-    limni_fixed *coefficients; ///< [vertex_count][control_count]
+    limni_sharpness *sharpness_pool; ///< what the sharpness of edges points into; NULL: none is
+    limni_fixed *coefficients;       ///< [vertex_count][control_count]
 } complex;
 
 typedef struct subdivision {
@@ -29,8 +30,9 @@ typedef struct subdivision {
     const limni_rules *rules;
     const limn_domain *domain;
     uint32_t control_count;
-    limni_wide *sums;     ///< [control_count]
-    limni_fixed *weights; ///< of two vertex masks
+    uint32_t weight_count; ///< of a vertex mask, at most
+    limni_wide *sums;      ///< [control_count]
+    limni_fixed *weights;  ///< of two vertex masks
 } subdivision;
 
 // ---- Masks
@@ -68,30 +70,17 @@ static void apply_vertex_mask(const subdivision *s, const complex *c, uint32_t v
 
 // ---- Stars
 
-static bool has_left(const limni_star *star, uint32_t r) {
-    return star->closed || r + 1 < star->count;
-}
-static bool has_right(const limni_star *star, uint32_t r) {
-    return star->closed || r > 0;
-}
-static uint32_t left_of(const limni_star *star, uint32_t r) {
-    return r + 1 < star->count ? r + 1 : 0;
-}
-static uint32_t right_of(const limni_star *star, uint32_t r) {
-    return r > 0 ? r - 1 : star->count - 1;
-}
-
 /// Applies the edge mask between core vertex v and its ring vertex r.
 static void apply_edge_mask(const subdivision *s, const complex *c, uint32_t v, uint32_t r,
                             limni_fixed *dst) {
     const limni_star *const star = &c->stars[v];
-    const bool boundary = !has_left(star, r) || !has_right(star, r);
-    const limni_edge_mask mask = limni_loop_edge_mask(boundary);
+    const limni_fixed sharp = limni_star_edge_weight(s->rules->creasing, star, r);
+    const limni_edge_mask mask = limni_loop_edge_mask(sharp);
     begin_sum(s);
     add_to_sum(s, c, v, mask.end);
     add_to_sum(s, c, star->ring[r], mask.end);
-    add_to_sum(s, c, star->ring[left_of(star, r)], mask.opposite);
-    add_to_sum(s, c, star->ring[right_of(star, r)], mask.opposite);
+    add_to_sum(s, c, star->ring[limni_star_left(star, r)], mask.opposite);
+    add_to_sum(s, c, star->ring[limni_star_right(star, r)], mask.opposite);
     end_sum(s, dst);
 }
 
@@ -108,12 +97,16 @@ static uint32_t grid_row(const subdivision *s, int i, int j) {
 /// them apart.
 static uint32_t opposite_place(const complex *c, uint32_t v, uint32_t r) {
     const limni_star *const from = &c->stars[v], *const to = &c->stars[from->ring[r]];
-    const uint32_t left = has_left(from, r) ? from->ring[left_of(from, r)] : LIMNI_NONE;
-    const uint32_t right = has_right(from, r) ? from->ring[right_of(from, r)] : LIMNI_NONE;
+    const uint32_t left =
+        limni_star_has_left(from, r) ? from->ring[limni_star_left(from, r)] : LIMNI_NONE;
+    const uint32_t right =
+        limni_star_has_right(from, r) ? from->ring[limni_star_right(from, r)] : LIMNI_NONE;
     for (uint32_t q = 0; q < to->count; q++) {
         if (to->ring[q] != v) continue;
-        const uint32_t seen_right = has_left(to, q) ? to->ring[left_of(to, q)] : LIMNI_NONE;
-        const uint32_t seen_left = has_right(to, q) ? to->ring[right_of(to, q)] : LIMNI_NONE;
+        const uint32_t seen_right =
+            limni_star_has_left(to, q) ? to->ring[limni_star_left(to, q)] : LIMNI_NONE;
+        const uint32_t seen_left =
+            limni_star_has_right(to, q) ? to->ring[limni_star_right(to, q)] : LIMNI_NONE;
         if (seen_left == left && seen_right == right) return q;
     }
     return LIMNI_NONE; // not reached: both ends see the same edge
@@ -133,8 +126,9 @@ static uint32_t grid_edge_place(const subdivision *s, const complex *c, uint32_t
     const uint32_t right = grid_row(s, a.i + di + dj, a.j - di);
     for (uint32_t r = 0; r < star->count; r++) {
         if (star->ring[r] != parents[1]) continue;
-        if (left != LIMNI_NONE ? has_left(star, r) && star->ring[left_of(star, r)] == left
-                               : has_right(star, r) && star->ring[right_of(star, r)] == right)
+        if (left != LIMNI_NONE
+                ? limni_star_has_left(star, r) && star->ring[limni_star_left(star, r)] == left
+                : limni_star_has_right(star, r) && star->ring[limni_star_right(star, r)] == right)
             return r;
     }
     return LIMNI_NONE; // not reached: the grid is part of the complex
@@ -163,35 +157,34 @@ static uint32_t number_edge_points(const subdivision *s, complex *c, uint32_t ne
     return count;
 }
 
-/// The star of a new vertex on the edge from core vertex a to its ring vertex r.
+/// The ring of a new vertex on the edge from core vertex a to its ring vertex r.
 static limni_star edge_point_star(const complex *c, uint32_t a, uint32_t r, uint32_t *ring) {
     const limni_star *const star = &c->stars[a];
     const uint32_t b = star->ring[r], q = opposite_place(c, a, r);
     const limni_star *const other = &c->stars[b];
-    const bool left = has_left(star, r), right = has_right(star, r);
+    const bool left = limni_star_has_left(star, r), right = limni_star_has_right(star, r);
     limni_star made = {.closed = left && right, .ring = ring};
-    made.rule = made.closed ? LIMNI_VERTEX_SMOOTH : LIMNI_VERTEX_CREASE;
     if (left) {
         ring[made.count++] = b;
-        ring[made.count++] = c->edge_points[b][right_of(other, q)];
-        ring[made.count++] = c->edge_points[a][left_of(star, r)];
+        ring[made.count++] = c->edge_points[b][limni_star_right(other, q)];
+        ring[made.count++] = c->edge_points[a][limni_star_left(star, r)];
     }
     ring[made.count++] = a;
     if (right) {
-        ring[made.count++] = c->edge_points[a][right_of(star, r)];
-        ring[made.count++] = c->edge_points[b][left_of(other, q)];
+        ring[made.count++] = c->edge_points[a][limni_star_right(star, r)];
+        ring[made.count++] = c->edge_points[b][limni_star_left(other, q)];
         if (!left) ring[made.count++] = b;
     }
     return made;
 }
 
-static void make_stars(const subdivision *s, const complex *c, complex *next) {
+static void make_rings(const subdivision *s, const complex *c, complex *next) {
     uint32_t *ring = next->ring_pool;
     for (uint32_t row = 0; row < next->core_count; row++) {
         limni_star *const star = &next->stars[row];
         if (row < c->core_count) {
-            *star = c->stars[row];
-            star->ring = ring;
+            const limni_star *const old = &c->stars[row];
+            *star = (limni_star){.closed = old->closed, .count = old->count, .ring = ring};
             memcpy(ring, c->edge_points[row], star->count * sizeof *ring);
         } else {
             const uint32_t parent = s->domain->rows[row].parents[0];
@@ -205,18 +198,83 @@ static void make_stars(const subdivision *s, const complex *c, complex *next) {
     }
 }
 
+// ---- Sharpness
+
+/// Of two halves of an edge that meet in its new vertex, what the first has there after a level.
+static limni_sharpness next_beyond(limn_creasing creasing, limni_sharpness half,
+                                   limni_sharpness other) {
+    limni_sharp_edges both = {0};
+    limni_sharp_edges_add(&both, half);
+    limni_sharp_edges_add(&both, other);
+    return limni_edge_sharpness_next(creasing, half, both);
+}
+
+static void sharpen_old_star(limn_creasing creasing, const limni_star *old, limni_star *star) {
+    star->sharpness = limni_sharpness_next(old->sharpness);
+    for (uint32_t r = 0; star->edges && r < star->count; r++) {
+        star->edges[r] = limni_star_next_edge(creasing, old, r);
+        star->beyond[r] = next_beyond(creasing, star->edges[r], old->beyond[r]);
+    }
+}
+
+/// A new vertex has the halves of its edge, and no other sharp edge; their far ends, its parents,
+/// come before it.
+static void sharpen_new_star(limn_creasing creasing, const complex *c, uint32_t a, uint32_t r,
+                             const complex *next, limni_star *star) {
+    const uint32_t ends[2] = {a, c->stars[a].ring[r]};
+    const uint32_t places[2] = {r, opposite_place(c, a, r)};
+    memset(star->edges, 0, star->count * sizeof *star->edges);
+    memset(star->beyond, 0, star->count * sizeof *star->beyond);
+    for (int end = 0; end < 2; end++) {
+        const limni_star *const parent = &next->stars[ends[end]];
+        uint32_t q = 0;
+        while (star->ring[q] != ends[end])
+            q++;
+        star->edges[q] = parent->edges[places[end]];
+        star->beyond[q] = limni_star_next_edge(creasing, parent, places[end]);
+    }
+}
+
+static void sharpen_stars(const subdivision *s, const complex *c, complex *next) {
+    const limn_creasing creasing = s->rules->creasing;
+    limni_sharpness *pool = next->sharpness_pool;
+    for (uint32_t row = 0; row < next->core_count; row++) {
+        limni_star *const star = &next->stars[row];
+        if (pool) {
+            star->edges = pool;
+            star->beyond = pool + star->count;
+            pool += 2 * star->count;
+        }
+        if (row < c->core_count) {
+            sharpen_old_star(creasing, &c->stars[row], star);
+        } else if (pool) {
+            sharpen_new_star(creasing, c, s->domain->rows[row].parents[0],
+                             grid_edge_place(s, c, row), next, star);
+        }
+    }
+}
+
+// ---- Levels
+
+/// with_sharpness  of edges
 static limn_bake_status allocate_level(const subdivision *s, uint32_t core_count,
-                                       uint32_t vertex_count, size_t ring_total, complex *c) {
+                                       uint32_t vertex_count, size_t ring_total,
+                                       bool with_sharpness, complex *c) {
     c->core_count = core_count;
     c->vertex_count = vertex_count;
     c->ring_pool = limni_allocate(s->context, 2 * ring_total, sizeof *c->ring_pool);
     c->coefficients = limni_allocate(s->context, (size_t)vertex_count * s->control_count,
                                      sizeof *c->coefficients);
-    return c->ring_pool && c->coefficients ? LIMN_BAKE_OK : LIMN_BAKE_MEMORY;
+    c->sharpness_pool = NULL;
+    if (!c->ring_pool || !c->coefficients) return LIMN_BAKE_MEMORY;
+    if (!with_sharpness) return LIMN_BAKE_OK;
+    c->sharpness_pool = limni_allocate(s->context, 2 * ring_total, sizeof *c->sharpness_pool);
+    return c->sharpness_pool ? LIMN_BAKE_OK : LIMN_BAKE_MEMORY;
 }
 
 static void release_level(const subdivision *s, complex *c) {
     limni_release(s->context, c->ring_pool);
+    limni_release(s->context, c->sharpness_pool);
     limni_release(s->context, c->coefficients);
 }
 
@@ -226,7 +284,7 @@ static limn_bake_status refine(const subdivision *s, complex *c, uint32_t next_c
     size_t ring_total = 6 * (size_t)next_core_count; // new vertices have at most 6 neighbours
     for (uint32_t v = 0; v < c->core_count; v++)
         ring_total += c->stars[v].count;
-    LIMNI_TRY(allocate_level(s, next_core_count, count, ring_total, next));
+    LIMNI_TRY(allocate_level(s, next_core_count, count, ring_total, c->sharpness_pool, next));
 
     for (uint32_t v = 0; v < c->core_count; v++) {
         limni_loop_vertex_mask(s->rules, &c->stars[v], s->weights);
@@ -234,37 +292,75 @@ static limn_bake_status refine(const subdivision *s, complex *c, uint32_t next_c
         for (uint32_t r = 0; r < c->stars[v].count; r++)
             apply_edge_mask(s, c, v, r, vertex_of(s, next, c->edge_points[v][r]));
     }
-    make_stars(s, c, next);
+    make_rings(s, c, next);
+    sharpen_stars(s, c, next);
     return LIMN_BAKE_OK;
 }
 
 // ---- All levels
 
-static limn_bake_status begin(const subdivision *s, const limni_neighbourhood *n, complex *c) {
+/// A complex of the first `core_count` vertices with these stars, before any level. The
+/// coefficients are left to the caller.
+static limn_bake_status begin(const subdivision *s, const limni_star *stars, uint32_t core_count,
+                              uint32_t vertex_count, complex *c) {
     size_t ring_total = 0;
-    for (int corner = 0; corner < 3; corner++)
-        ring_total += n->corners[corner].count;
-    LIMNI_TRY(allocate_level(s, 3, n->control_count, ring_total, c));
-    memset(c->coefficients, 0, (size_t)n->control_count * n->control_count * sizeof(limni_fixed));
-    for (uint32_t v = 0; v < n->control_count; v++)
-        vertex_of(s, c, v)[v] = LIMNI_FIXED_ONE;
+    for (uint32_t v = 0; v < core_count; v++)
+        ring_total += stars[v].count;
+    LIMNI_TRY(allocate_level(s, core_count, vertex_count, ring_total, stars[0].edges, c));
 
-    uint32_t *ring = c->ring_pool;
-    for (int corner = 0; corner < 3; corner++) {
-        limni_star *const star = &c->stars[corner];
-        *star = n->corners[corner];
-        star->ring = memcpy(ring, star->ring, star->count * sizeof *ring);
-        c->edge_points[corner] = ring + ring_total;
-        ring += star->count;
+    size_t first = 0;
+    for (uint32_t v = 0; v < core_count; v++) {
+        limni_star *const star = &c->stars[v];
+        *star = stars[v];
+        star->ring = memcpy(c->ring_pool + first, star->ring, star->count * sizeof *star->ring);
+        c->edge_points[v] = c->ring_pool + ring_total + first;
+        if (star->edges) {
+            const size_t size = star->count * sizeof *star->edges;
+            star->edges = memcpy(c->sharpness_pool + first, star->edges, size);
+            star->beyond = memcpy(c->sharpness_pool + ring_total + first, star->beyond, size);
+        }
+        first += star->count;
     }
     return LIMN_BAKE_OK;
 }
 
-static void project_to_limit(const subdivision *s, const complex *c, limni_fixed *rows) {
-    for (uint32_t row = 0; row < c->core_count; row++) {
-        limni_loop_limit_mask(s->rules, &c->stars[row], s->weights);
-        apply_vertex_mask(s, c, row, s->weights, rows + (size_t)row * s->control_count);
+/// Each vertex is a control point.
+static void set_identity(const subdivision *s, complex *c) {
+    memset(c->coefficients, 0, (size_t)c->vertex_count * s->control_count * sizeof(limni_fixed));
+    for (uint32_t v = 0; v < c->vertex_count; v++)
+        vertex_of(s, c, v)[v] = LIMNI_FIXED_ONE;
+}
+
+// ---- The limit
+
+/// Refines a complex of one core vertex until nothing there decays.
+static limn_bake_status settle(const subdivision *s, complex *c) {
+    while (limni_star_decays(&c->stars[0])) {
+        complex next;
+        LIMNI_TRY(refine(s, c, 1, &next));
+        release_level(s, c);
+        *c = next;
     }
+    return LIMN_BAKE_OK;
+}
+
+/// One core vertex and its ring as a complex of their own, which is closed under subdivision,
+/// settled.
+static limn_bake_status settle_row(const subdivision *s, const complex *c, uint32_t row,
+                                   complex *settled) {
+    limni_star star = c->stars[row];
+    const uint32_t vertex_count = 1 + star.count;
+    star.ring = limni_allocate(s->context, star.count, sizeof *star.ring);
+    if (!star.ring) return LIMN_BAKE_MEMORY;
+    for (uint32_t r = 0; r < star.count; r++)
+        star.ring[r] = 1 + r;
+    LIMNI_TRY(begin(s, &star, 1, vertex_count, settled));
+    limni_release(s->context, star.ring);
+    const size_t size = s->control_count * sizeof(limni_fixed);
+    memcpy(vertex_of(s, settled, 0), vertex_of(s, c, row), size);
+    for (uint32_t r = 0; r < star.count; r++)
+        memcpy(vertex_of(s, settled, 1 + r), vertex_of(s, c, c->stars[row].ring[r]), size);
+    return settle(s, settled);
 }
 
 /// In half steps around a closed ring, where the tangents of a row start: on an edge, at the next
@@ -285,17 +381,77 @@ static uint32_t tangent_start(const subdivision *s, const complex *c, uint32_t r
     return 2 * r + (edge == 3);
 }
 
-static void find_tangents(const subdivision *s, const complex *c, int depth,
-                          limni_fixed *tangents) {
-    const size_t table_size = (size_t)c->core_count * s->control_count;
-    memset(tangents, 0, 2 * table_size * sizeof *tangents);
-    for (uint32_t row = s->domain->corner_count; row < c->core_count; row++) {
-        limni_fixed *const along = s->weights, *const across = along + s->control_count + 7;
-        limni_fixed *const dst = tangents + (size_t)row * s->control_count;
-        limni_loop_tangent_masks(&c->stars[row], tangent_start(s, c, row, depth), along, across);
-        apply_vertex_mask(s, c, row, along, dst);
-        apply_vertex_mask(s, c, row, across, dst + table_size);
+/// Where the rows of a level go.
+typedef struct limit_rows {
+    limni_fixed *positions;
+    limni_fixed *tangents[2]; ///< NULL: not wanted
+} limit_rows;
+
+/// The limit of core vertex v, which does not decay.
+///
+/// start  see limni_loop_tangent_masks()
+static void project(const subdivision *s, const complex *c, uint32_t v, uint32_t start,
+                    const limit_rows *dst) {
+    const limni_star *const star = &c->stars[v];
+    limni_fixed *const along = s->weights, *const across = along + s->weight_count;
+    if (dst->positions) {
+        limni_loop_limit_mask(s->rules, star, s->weights);
+        apply_vertex_mask(s, c, v, s->weights, dst->positions);
     }
+    if (!dst->tangents[0]) return;
+    limni_loop_tangent_masks(star, start, along, across);
+    apply_vertex_mask(s, c, v, along, dst->tangents[0]);
+    apply_vertex_mask(s, c, v, across, dst->tangents[1]);
+}
+
+static limn_bake_status project_row(const subdivision *s, const complex *c, uint32_t row,
+                                    uint32_t start, const limit_rows *dst) {
+    if (!limni_star_decays(&c->stars[row])) {
+        project(s, c, row, start, dst);
+        return LIMN_BAKE_OK;
+    }
+    complex settled;
+    LIMNI_TRY(settle_row(s, c, row, &settled));
+    project(s, &settled, 0, start, dst);
+    release_level(s, &settled);
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status project_rows(const subdivision *s, const complex *c, int depth,
+                                     limni_fixed *positions, limni_fixed *tangents) {
+    const size_t table_size = (size_t)c->core_count * s->control_count;
+    if (tangents) memset(tangents, 0, 2 * table_size * sizeof *tangents);
+    for (uint32_t row = 0; row < c->core_count; row++) {
+        const bool corner = row < s->domain->corner_count;
+        const size_t first = (size_t)row * s->control_count;
+        limit_rows dst = {.positions = positions + first};
+        if (tangents && !corner) {
+            dst.tangents[0] = tangents + first;
+            dst.tangents[1] = tangents + table_size + first;
+        }
+        const uint32_t start = corner ? 0 : tangent_start(s, c, row, depth);
+        LIMNI_TRY(project_row(s, c, row, start, &dst));
+    }
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status begin_subdivision(limni_context *context, const limni_rules *rules,
+                                          uint32_t control_count, subdivision *s) {
+    *s = (subdivision){
+        .context = context,
+        .rules = rules,
+        .domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE),
+        .control_count = control_count,
+        .weight_count = control_count + 7,
+        .sums = limni_allocate(context, control_count, sizeof *s->sums),
+    };
+    s->weights = limni_allocate(context, 2 * (size_t)s->weight_count, sizeof *s->weights);
+    return s->sums && s->weights ? LIMN_BAKE_OK : LIMN_BAKE_MEMORY;
+}
+
+static void end_subdivision(const subdivision *s) {
+    limni_release(s->context, s->sums);
+    limni_release(s->context, s->weights);
 }
 
 limn_bake_status limni_subdivide(limni_context *context, const limni_rules *rules,
@@ -303,18 +459,11 @@ limn_bake_status limni_subdivide(limni_context *context, const limni_rules *rule
                                  limni_projection projection, limni_fixed *positions,
                                  limni_fixed *tangents) {
     const uint32_t control_count = neighbourhood->control_count;
-    const subdivision s = {
-        .context = context,
-        .rules = rules,
-        .domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE),
-        .control_count = control_count,
-        .sums = limni_allocate(context, control_count, sizeof *s.sums),
-        .weights = limni_allocate(context, 2 * ((size_t)control_count + 7), sizeof *s.weights),
-    };
-    if (!s.sums || !s.weights) return LIMN_BAKE_MEMORY;
-
+    subdivision s;
     complex level;
-    LIMNI_TRY(begin(&s, neighbourhood, &level));
+    LIMNI_TRY(begin_subdivision(context, rules, control_count, &s));
+    LIMNI_TRY(begin(&s, neighbourhood->corners, 3, control_count, &level));
+    set_identity(&s, &level);
     for (int n = 1; n <= depth; n++) {
         complex next;
         LIMNI_TRY(refine(&s, &level, s.domain->row_counts[n], &next));
@@ -322,14 +471,29 @@ limn_bake_status limni_subdivide(limni_context *context, const limni_rules *rule
         level = next;
     }
     if (projection == LIMNI_PROJECT_TO_LIMIT) {
-        project_to_limit(&s, &level, positions);
+        LIMNI_TRY(project_rows(&s, &level, depth, positions, tangents));
     } else {
         memcpy(positions, level.coefficients,
                (size_t)level.core_count * control_count * sizeof *positions);
     }
-    if (tangents) find_tangents(&s, &level, depth, tangents);
     release_level(&s, &level);
-    limni_release(context, s.sums);
-    limni_release(context, s.weights);
+    end_subdivision(&s);
+    return LIMN_BAKE_OK;
+}
+
+limn_bake_status limni_star_tangents(limni_context *context, const limni_rules *rules,
+                                     const limni_star *star, uint32_t half_steps,
+                                     limni_fixed *along, limni_fixed *across) {
+    subdivision s;
+    complex c;
+    LIMNI_TRY(begin_subdivision(context, rules, 1 + star->count, &s));
+    LIMNI_TRY(begin(&s, star, 1, 1 + star->count, &c));
+    for (uint32_t r = 0; r < star->count; r++)
+        c.stars[0].ring[r] = 1 + r;
+    set_identity(&s, &c);
+    LIMNI_TRY(settle(&s, &c));
+    project(&s, &c, 0, half_steps, &(limit_rows){.tangents = {along, across}});
+    release_level(&s, &c);
+    end_subdivision(&s);
     return LIMN_BAKE_OK;
 }

@@ -14,19 +14,29 @@ typedef struct limni_neighbourhood {
 /// What becomes of the vertices after the last level.
 typedef enum limni_projection {
     LIMNI_PROJECT_NOT,     ///< they stay where that level puts them
-    LIMNI_PROJECT_TO_LIMIT ///< they move to where all further levels would take them
+    LIMNI_PROJECT_TO_LIMIT ///< they move to where all further levels would take them: first to the
+                           ///< level at which nothing is semi-sharp around them, the tenth at most
 } limni_projection;
 
 /// Subdivides the triangle symbolically, `depth` times, 0 to LIMN_LEVEL_MAX.
 ///
 /// positions  out: [row_counts[depth]][control_count] coefficients in the row order of the triangle
 ///            domain; each row sums to 1 within a few units of 2^-60
-/// tangents   out, or NULL: the same for the two tangents of the limit surface, [2][…][…]; rows
+/// tangents   out, or NULL; only of the limit: the same for the two tangents of the limit surface, [2][…][…]; rows
 ///            inside an edge have them along the edge and across, so that the neighbour has both
-///            negated; the corners, whose normals belong to the control points, have zeros
+///            negated, or on a crease the own side's; the corners, whose normals belong to the
+///            control points, have zeros
 limn_bake_status limni_subdivide(limni_context *context, const limni_rules *rules,
                                  const limni_neighbourhood *neighbourhood, int depth,
                                  limni_projection projection, limni_fixed *positions,
                                  limni_fixed *tangents);
+
+/// limni_loop_tangent_masks() of a star that may decay: relative to the vertex and its ring as they
+/// are.
+///
+/// along, across  out: [1 + star->count]
+limn_bake_status limni_star_tangents(limni_context *context, const limni_rules *rules,
+                                     const limni_star *star, uint32_t half_steps,
+                                     limni_fixed *along, limni_fixed *across);
 
 #endif

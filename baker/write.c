@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHUNKS_OF_FILE = 3, CHUNKS_OF_MESH = 8, CHUNKS_OF_NORMALS = 3 };
+enum { CHUNKS_OF_FILE = 3, CHUNKS_OF_MESH = 8, CHUNKS_OF_NORMALS = 3, CHUNKS_OF_CREASES = 3 };
 
 /// A chunk that is to be written.
 typedef struct part {
@@ -29,7 +29,13 @@ static int compare_parts(const void *a, const void *b) {
     return (left_key > right_key) - (left_key < right_key);
 }
 
-static void list_mesh(const limni_patches *mesh, uint32_t m, part *parts) {
+/// Appends a chunk of a mesh, unless it has none.
+static void add_part(part *parts, uint32_t *count, uint32_t kind, uint32_t mesh, const void *data,
+                     uint64_t size) {
+    if (data) parts[(*count)++] = (part){kind, mesh, data, size};
+}
+
+static void list_mesh(const limni_patches *mesh, uint32_t m, part *parts, uint32_t *count) {
     const limn_file_mesh *const record = &mesh->record;
     const part of_mesh[CHUNKS_OF_MESH] = {
         {LIMN_CHUNK_MESH, m, record, sizeof *record},
@@ -41,17 +47,25 @@ static void list_mesh(const limni_patches *mesh, uint32_t m, part *parts) {
         {LIMN_CHUNK_SLOTS, m, mesh->slots, mesh->slots_size},
         {LIMN_CHUNK_ERRORS, m, mesh->errors, 3 * record->patch_count * sizeof *mesh->errors},
     };
-    memcpy(parts, of_mesh, sizeof of_mesh);
+    memcpy(parts + *count, of_mesh, sizeof of_mesh);
+    *count += CHUNKS_OF_MESH;
+    add_part(parts, count, LIMN_CHUNK_CREASES, m, mesh->creases, record->patch_count);
 }
 
-static void list_normals(const limni_control_normals *normals, uint32_t control_count, uint32_t m,
-                         part *parts) {
+static void list_normals(const limni_patches *mesh, uint32_t m, part *parts, uint32_t *count) {
+    const limni_control_normals *const normals = &mesh->normals;
     const part of_normals[CHUNKS_OF_NORMALS] = {
-        {LIMN_CHUNK_NORMALS, m, normals->records, control_count * sizeof *normals->records},
+        {LIMN_CHUNK_NORMALS, m, normals->records,
+         mesh->record.control_count * sizeof *normals->records},
         {LIMN_CHUNK_RINGS, m, normals->ring, normals->ring_size * sizeof *normals->ring},
         {LIMN_CHUNK_WEIGHTS, m, normals->weights, normals->weight_count * sizeof *normals->weights},
     };
-    memcpy(parts, of_normals, sizeof of_normals);
+    memcpy(parts + *count, of_normals, sizeof of_normals);
+    *count += CHUNKS_OF_NORMALS;
+    add_part(parts, count, LIMN_CHUNK_SIDES, m, normals->sides,
+             normals->side_count * sizeof *normals->sides);
+    add_part(parts, count, LIMN_CHUNK_CORNERS, m, mesh->corner_normals,
+             3 * mesh->record.patch_count * sizeof *mesh->corner_normals);
 }
 
 static limn_bake_status make_class_records(limni_context *context, const limni_classes *classes,
@@ -118,29 +132,49 @@ static void fill_blob(const limni_classes *classes, const part *parts, uint32_t 
 
 /// The boundary rule of all meshes, or that they differ.
 static const char *boundary_name(const limni_patches *meshes, uint32_t mesh_count) {
+    static const char *const names[] = {[LIMN_BOUNDARY_EDGE_ONLY] = "edge-only",
+                                        [LIMN_BOUNDARY_EDGE_AND_CORNER] = "edge-and-corner",
+                                        [LIMN_BOUNDARY_NONE] = "none"};
     for (uint32_t m = 1; m < mesh_count; m++) {
-        if (meshes[m].boundary != meshes[0].boundary) return "mixed";
+        if (meshes[m].rules.boundary != meshes[0].rules.boundary) return "mixed";
     }
-    return meshes[0].boundary == LIMN_BOUNDARY_EDGE_AND_CORNER ? "edge-and-corner" : "edge-only";
+    return names[meshes[0].rules.boundary];
+}
+
+/// The creasing method of all meshes with sharp features, or that they differ; NULL: there are none.
+static const char *creasing_name(const limni_patches *meshes, uint32_t mesh_count) {
+    const char *name = NULL;
+    for (uint32_t m = 0; m < mesh_count; m++) {
+        const bool chaikin = meshes[m].rules.creasing == LIMN_CREASING_CHAIKIN;
+        const char *const own = chaikin ? "chaikin" : "uniform";
+        if (!meshes[m].sharp) continue;
+        if (name && strcmp(name, own) != 0) return "mixed";
+        name = own;
+    }
+    return name;
 }
 
 /// How the file was baked. Nothing here depends on the host or on the time.
 static void describe(const limni_rules *rules, const limni_patches *meshes, uint32_t mesh_count,
                      char *text, size_t size) {
-    snprintf(text, size, "scheme=loop weights=%s boundary=%s normals=%s",
+    const char *const creasing = creasing_name(meshes, mesh_count);
+    const char *const normals = rules->normals == LIMN_NORMALS_EXACT ? "exact" : "none";
+    char creases[64] = "";
+    if (creasing) snprintf(creases, sizeof creases, " creases=opensubdiv creasing=%s", creasing);
+    snprintf(text, size, "scheme=loop weights=%s boundary=%s%s normals=%s",
              rules->weights == LIMN_WEIGHTS_WARREN ? "warren" : "loop",
-             boundary_name(meshes, mesh_count),
-             rules->normals == LIMN_NORMALS_EXACT ? "exact" : "none");
+             boundary_name(meshes, mesh_count), creases, normals);
 }
 
 limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rules,
                                   const limni_classes *classes, const limni_patches *meshes,
                                   uint32_t mesh_count, unsigned char **blob, size_t *blob_size) {
     const bool with_normals = rules->normals == LIMN_NORMALS_EXACT;
-    const uint32_t per_mesh = CHUNKS_OF_MESH + (with_normals ? CHUNKS_OF_NORMALS : 0);
-    const uint32_t part_count = CHUNKS_OF_FILE + per_mesh * mesh_count;
-    part *const parts = limni_allocate(context, part_count, sizeof *parts);
-    limn_file_chunk *const directory = limni_allocate(context, part_count, sizeof *directory);
+    const uint32_t per_mesh = CHUNKS_OF_MESH + CHUNKS_OF_NORMALS + CHUNKS_OF_CREASES;
+    const uint32_t room = CHUNKS_OF_FILE + per_mesh * mesh_count;
+    uint32_t part_count = CHUNKS_OF_FILE;
+    part *const parts = limni_allocate(context, room, sizeof *parts);
+    limn_file_chunk *const directory = limni_allocate(context, room, sizeof *directory);
     limn_file_class *class_records;
     uint64_t tables_size;
     LIMNI_TRY(make_class_records(context, classes, &class_records, &tables_size));
@@ -153,11 +187,8 @@ limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rul
                       classes->count * sizeof *class_records};
     parts[2] = (part){LIMN_CHUNK_TABLES, LIMN_FORMAT_NO_MESH, NULL, tables_size};
     for (uint32_t m = 0; m < mesh_count; m++) {
-        part *const of_mesh = parts + CHUNKS_OF_FILE + per_mesh * m;
-        list_mesh(&meshes[m], m, of_mesh);
-        if (with_normals)
-            list_normals(&meshes[m].normals, meshes[m].record.control_count, m,
-                         of_mesh + CHUNKS_OF_MESH);
+        list_mesh(&meshes[m], m, parts, &part_count);
+        if (with_normals) list_normals(&meshes[m], m, parts, &part_count);
     }
     qsort(parts, part_count, sizeof *parts, compare_parts);
 

@@ -162,7 +162,20 @@ cmp tagged.limn corner.limn || fail "t interpolateboundary does nothing"
 works bake tagged/sail.obj -o tagged.limn --boundary edge-only
 cmp tagged.limn sail.limn || fail "--boundary does not prevail"
 tagged 't interpolateboundary 1/0/0 0'
-notes 'sail.obj: without boundary interpolation.*not supported yet' bake tagged/sail.obj -o tagged.limn
+works bake tagged/sail.obj -o tagged.limn
+works bake "$sail" -o none.limn --boundary none
+cmp tagged.limn none.limn || fail "t interpolateboundary 0 is not --boundary none"
+tagged 't crease 2/1/0 26 34 2.5'
+works bake tagged/sail.obj -o tagged.limn
+cmp -s tagged.limn sail.limn && fail "t crease does nothing"
+works info tagged.limn
+says stdout 'creases=opensubdiv creasing=uniform'
+works bake tagged/sail.obj -o tagged.limn --creasing chaikin --creases opensubdiv
+works info tagged.limn
+says stdout 'creasing=chaikin'
+refuses 1 "Lomont's rules" bake tagged/sail.obj -o tagged.limn --creases lomont
+refuses 2 "no crease rules 'hoppe'" bake tagged/sail.obj -o tagged.limn --creases hoppe
+refuses 2 "no creasing method 'hard'" bake tagged/sail.obj -o tagged.limn --creasing hard
 tagged 't hole 3/0/0 0 5 87'
 works bake tagged/sail.obj -o tagged.limn
 works info tagged.limn --json

@@ -60,7 +60,7 @@ static void check_sums_to_one(uint32_t count) {
 /// Loop's b(n), Warren's b(n), and the limit 3n / 8b against n neighbours.
 static void test_smooth_masks(void) {
     for (uint32_t n = 2; n <= 500; n++) {
-        const limni_star star = {.rule = LIMNI_VERTEX_SMOOTH, .closed = true, .count = n};
+        const limni_star star = {.closed = true, .count = n};
         const double root = 3 + 2 * cos(6.283185307179586476925 / n);
         const double b[2] = {(40 - root * root) / 64, n == 3 ? 9.0 / 16 : 3.0 / 8};
         for (int choice = 0; choice < 2; choice++) {
@@ -79,9 +79,9 @@ static void test_smooth_masks(void) {
 }
 
 static void test_boundary_masks(void) {
-    const limni_rules rules = {.boundary = LIMN_BOUNDARY_EDGE_AND_CORNER};
-    limni_star star = {.rule = limni_loop_rule(&rules, false, 4), .count = 4};
-    CHECK_EQUAL(star.rule, LIMNI_VERTEX_CREASE);
+    const limni_rules rules = {0};
+    limni_star star = {.count = 4};
+    CHECK_EQUAL(limni_star_feature(&star).rule, LIMNI_VERTEX_CREASE);
     limni_loop_vertex_mask(&rules, &star, weights);
     CHECK(value(weights[0]) == 0.75 && value(weights[1]) == 0.125 && value(weights[4]) == 0.125);
     CHECK(weights[2] == 0 && weights[3] == 0);
@@ -90,36 +90,38 @@ static void test_boundary_masks(void) {
     CHECK_NEAR(value(weights[4]), 1.0 / 6, 1e-17);
     check_sums_to_one(4);
 
-    star = (limni_star){.rule = limni_loop_rule(&rules, false, 2), .count = 2};
-    CHECK_EQUAL(star.rule, LIMNI_VERTEX_CORNER);
+    star = (limni_star){.count = 2, .sharpness = LIMNI_SHARPNESS_INFINITE};
+    CHECK_EQUAL(limni_star_feature(&star).rule, LIMNI_VERTEX_CORNER);
     limni_loop_limit_mask(&rules, &star, weights);
     CHECK(weights[0] == LIMNI_FIXED_ONE && weights[1] == 0 && weights[2] == 0);
-    const limni_rules rounded = {.boundary = LIMN_BOUNDARY_EDGE_ONLY};
-    CHECK_EQUAL(limni_loop_rule(&rounded, false, 2), LIMNI_VERTEX_CREASE);
-    CHECK_EQUAL(limni_loop_rule(&rounded, true, 2), LIMNI_VERTEX_SMOOTH);
 }
 
-/// A tangent mask that is a left eigenvector of the subdivision matrix gives the same direction at
-/// every level: applied after one step, it is the mask before it times the eigenvalue.
-static void check_is_eigenvector(const limni_rules *rules, const limni_star *star,
-                                 const limni_fixed *mask) {
+/// Applies a mask after one subdivision step: the same in terms of the vertices before it.
+static void step(const limni_rules *rules, const limni_star *star, const limni_fixed *mask,
+                 double *stepped) {
     static limni_fixed vertex[600];
-    static double stepped[600];
     const uint32_t n = star->count;
-    for (uint32_t w = 0; w <= n; w++)
-        stepped[w] = 0;
     limni_loop_vertex_mask(rules, star, vertex);
     for (uint32_t w = 0; w <= n; w++)
-        stepped[w] += value(mask[0]) * value(vertex[w]);
+        stepped[w] = value(mask[0]) * value(vertex[w]);
     for (uint32_t r = 0; r < n; r++) { // the new vertex between the vertex and ring vertex r
-        const bool boundary = !star->closed && (r == 0 || r == n - 1);
-        const limni_edge_mask edge = limni_loop_edge_mask(boundary);
+        const limni_edge_mask edge =
+            limni_loop_edge_mask(limni_star_edge_weight(rules->creasing, star, r));
         const double weight = value(mask[1 + r]);
         stepped[0] += weight * value(edge.end);
         stepped[1 + r] += weight * value(edge.end);
         stepped[1 + (r + 1) % n] += weight * value(edge.opposite);
         stepped[1 + (r + n - 1) % n] += weight * value(edge.opposite);
     }
+}
+
+/// A tangent mask that is a left eigenvector of the subdivision matrix gives the same direction at
+/// every level: applied after one step, it is the mask before it times the eigenvalue.
+static void check_is_eigenvector(const limni_rules *rules, const limni_star *star,
+                                 const limni_fixed *mask) {
+    static double stepped[600];
+    const uint32_t n = star->count;
+    step(rules, star, mask, stepped);
     double longest = 0, eigenvalue = 0;
     for (uint32_t w = 0; w <= n; w++) {
         if (fabs(value(mask[w])) <= longest) continue;
@@ -131,16 +133,96 @@ static void check_is_eigenvector(const limni_rules *rules, const limni_star *sta
         CHECK_NEAR(stepped[w], eigenvalue * value(mask[w]), 1e-13);
 }
 
+/// The limit is the same before and after a step.
+static void check_limit(const limni_star *star) {
+    static double stepped[600];
+    const limni_rules rules = {0};
+    limni_loop_limit_mask(&rules, star, weights);
+    check_sums_to_one(star->count);
+    step(&rules, star, weights, stepped);
+    for (uint32_t w = 0; w <= star->count; w++)
+        CHECK_NEAR(stepped[w], value(weights[w]), 1e-13);
+}
+
+enum { SHARP = LIMNI_SHARPNESS_INFINITE, LEVEL = 1 << LIMNI_SHARPNESS_BITS };
+
+/// With up to three edges that stay sharp, wherever they are.
+static void test_limits(void) {
+    static limni_sharpness edges[500], beyond[500];
+    for (uint32_t n = 3; n <= 500; n += 1 + n / 8) {
+        limni_star star = {.closed = true, .count = n, .edges = edges, .beyond = beyond};
+        static const limni_vertex_rule rules[] = {LIMNI_VERTEX_SMOOTH, LIMNI_VERTEX_DART,
+                                                  LIMNI_VERTEX_CREASE, LIMNI_VERTEX_CORNER};
+        for (uint32_t sharp = 0; sharp <= 3; sharp++) {
+            CHECK_EQUAL(limni_star_feature(&star).rule, rules[sharp]);
+            check_limit(&star);
+            if (sharp < 3) edges[(sharp + 1) * n / 3 - 1] = SHARP;
+        }
+        for (uint32_t r = 0; r < n; r++)
+            edges[r] = 0;
+    }
+}
+
+/// Side by side, the tangents on both sides of a crease are those of two boundaries.
+static void test_crease_tangents(void) {
+    limni_sharpness edges[9] = {[2] = SHARP, [6] = SHARP}, beyond[9] = {0};
+    const limni_star star = {.closed = true, .count = 9, .edges = edges, .beyond = beyond};
+    static const uint32_t starts[2] = {2, 6}, counts[2] = {5, 6};
+    for (int side = 0; side < 2; side++) {
+        limni_fixed along[2][10], across[2][10];
+        const limni_star boundary = {.count = counts[side]};
+        limni_loop_tangent_masks(&star, 2 * starts[side], along[0], across[0]);
+        limni_loop_tangent_masks(&boundary, 0, along[1], across[1]);
+        CHECK_EQUAL(across[0][0], across[1][0]);
+        for (uint32_t r = 0; r < counts[side]; r++) {
+            const uint32_t place = 1 + (starts[side] + r) % 9;
+            CHECK_EQUAL(along[0][place], along[1][1 + r]);
+            CHECK_EQUAL(across[0][place], across[1][1 + r]);
+        }
+    }
+}
+
+/// What ends on a level has a say by its sharpness.
+static void test_transitions(void) {
+    limni_sharpness edges[6] = {0}, beyond[6] = {0};
+    limni_star star = {.closed = true, .count = 6, .edges = edges, .beyond = beyond};
+    edges[0] = edges[3] = LEVEL / 4;
+    limni_transition t = limni_star_transition(LIMN_CREASING_UNIFORM, &star);
+    CHECK(t.now.rule == LIMNI_VERTEX_CREASE && t.next.rule == LIMNI_VERTEX_SMOOTH);
+    CHECK(value(t.weight) == 0.25);
+    CHECK(value(limni_star_edge_weight(LIMN_CREASING_UNIFORM, &star, 3)) == 0.25);
+    limni_loop_vertex_mask(&(limni_rules){0}, &star, weights);
+    CHECK_NEAR(value(weights[1]), 0.25 / 8 + 0.75 / 16, 1e-17);
+    CHECK_NEAR(value(weights[2]), 0.75 / 16, 1e-17);
+    check_sums_to_one(6);
+
+    // A third edge and the vertex end, a crease stays.
+    edges[0] = SHARP;
+    edges[3] = 3 * LEVEL;
+    edges[4] = LEVEL / 2;
+    star.sharpness = LEVEL;
+    t = limni_star_transition(LIMN_CREASING_UNIFORM, &star);
+    CHECK(t.now.rule == LIMNI_VERTEX_CORNER && t.next.rule == LIMNI_VERTEX_CREASE);
+    CHECK(t.next.ends[0] == 0 && t.next.ends[1] == 3 && value(t.weight) == 0.75);
+
+    // Chaikin's method takes from 3 and gives to 1/2.
+    CHECK_EQUAL(limni_star_next_edge(LIMN_CREASING_CHAIKIN, &star, 3), 11 * LEVEL / 8);
+    CHECK_EQUAL(limni_star_next_edge(LIMN_CREASING_CHAIKIN, &star, 4), LEVEL / 8);
+    CHECK_EQUAL(limni_star_next_edge(LIMN_CREASING_CHAIKIN, &star, 0), SHARP);
+    CHECK_EQUAL(limni_sharpness_next(limni_sharpness_from_float(9.99999905f)), 9 * LEVEL - 16);
+    CHECK_EQUAL(limni_sharpness_from_float(1e30f), SHARP);
+}
+
 static void test_tangent_masks(void) {
     static limni_fixed along[600], across[600];
     const limni_rules rules = {0};
     for (uint32_t n = 2; n <= 500; n++) {
-        const limni_star boundary = {.rule = LIMNI_VERTEX_CREASE, .count = n};
+        const limni_star boundary = {.count = n};
         limni_loop_tangent_masks(&boundary, 0, along, across);
         check_is_eigenvector(&rules, &boundary, along);
         check_is_eigenvector(&rules, &boundary, across);
         if (n == 2) continue; // two faces back to back have no tangent plane
-        const limni_star inside = {.rule = LIMNI_VERTEX_SMOOTH, .closed = true, .count = n};
+        const limni_star inside = {.closed = true, .count = n};
         limni_loop_tangent_masks(&inside, 0, along, across);
         check_is_eigenvector(&rules, &inside, along);
         check_is_eigenvector(&rules, &inside, across);
@@ -150,7 +232,7 @@ static void test_tangent_masks(void) {
 /// From the opposite vertex of a ring of six, both tangents are negated exactly.
 static void test_tangents_turn(void) {
     limni_fixed along[2][7], across[2][7];
-    const limni_star star = {.rule = LIMNI_VERTEX_SMOOTH, .closed = true, .count = 6};
+    const limni_star star = {.closed = true, .count = 6};
     limni_loop_tangent_masks(&star, 2, along[0], across[0]);
     limni_loop_tangent_masks(&star, 8, along[1], across[1]);
     for (int w = 0; w < 7; w++)
@@ -166,5 +248,8 @@ int main(void) {
     test_boundary_masks();
     test_tangent_masks();
     test_tangents_turn();
+    test_limits();
+    test_crease_tangents();
+    test_transitions();
     return check_report();
 }

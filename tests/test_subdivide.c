@@ -22,7 +22,7 @@ static uint32_t row_at(int i, int j) {
 }
 
 static limni_star closed_star(uint32_t count, uint32_t *ring) {
-    return (limni_star){.rule = LIMNI_VERTEX_SMOOTH, .closed = true, .count = count, .ring = ring};
+    return (limni_star){.closed = true, .count = count, .ring = ring};
 }
 
 /// Brickhill, equations (1) to (5): a face with a corner of valence 5. His C1, C2, C3 are slots 0,

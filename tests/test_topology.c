@@ -960,7 +960,7 @@ static void test_disagreement(void) {
     limni_mesh mesh;
     CHECK_EQUAL(limni_mesh_build(&context, &source, &mesh), LIMN_BAKE_OK);
     CHECK_EQUAL(limni_patches_build(&context, &mesh, &rules, &classes, &patches), LIMN_BAKE_OK);
-    classes.items[0].prints[1].along[0] ^= 1;
+    classes.items[0].prints[1].along[0].positions ^= 1;
     CHECK_EQUAL(limni_patches_build(&context, &mesh, &rules, &classes, &patches),
                 LIMN_BAKE_INTERNAL);
     CHECK_CONTAINS(context.error, "disagree on their common edge");

@@ -39,8 +39,14 @@ typedef enum limn_boundary {
     LIMN_BOUNDARY_DEFAULT,         ///< what the mesh or its file asks for; otherwise edge-only
     LIMN_BOUNDARY_EDGE_ONLY,       ///< corners of the boundary are rounded
     LIMN_BOUNDARY_EDGE_AND_CORNER, ///< a boundary vertex with a single face stays where it is
-    LIMN_BOUNDARY_NONE             ///< no boundary curves; not supported yet: as edge-only
+    LIMN_BOUNDARY_NONE ///< faces at a boundary are holes, unless all boundary edges are sharp there
 } limn_boundary;
+
+/// What sharp edges and vertices mean.
+typedef enum limn_creases {
+    LIMN_CREASES_OPENSUBDIV,
+    LIMN_CREASES_LOMONT ///< not supported yet: refused where anything is sharp
+} limn_creases;
 
 /// How the sharpness of an edge passes on to its halves, level by level.
 typedef enum limn_creasing {
@@ -75,6 +81,8 @@ typedef void limn_bake_progress_fn(void *user, const char *step, uint32_t done, 
 typedef struct limn_bake_desc {
     limn_weights weights;
     limn_boundary boundary;
+    limn_creases creases;
+    limn_creasing creasing;
     limn_normals normals;
     uint32_t repair; ///< LIMN_REPAIR_… bits; 0: refuse what is not a clean manifold
     limn_bake_note_fn *note;

@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: MIT */
+#include "mesh_sharpness.h"
+
+static bool any_above_zero(const float *values, size_t count) {
+    bool any = false;
+    for (size_t v = 0; values && v < count; v++)
+        any |= values[v] > 0;
+    return any;
+}
+
+bool limni_has_sharpness(const limni_mesh *mesh) {
+    return any_above_zero(mesh->edge_sharpness, 3 * (size_t)mesh->face_count) ||
+           any_above_zero(mesh->vertex_sharpness, mesh->control_count);
+}
+
+/// Whether a boundary edge at the control point is not sharp by a tag.
+static bool has_open_boundary(const limni_mesh *mesh, uint32_t control) {
+    const uint32_t first = mesh->first[control];
+    uint32_t last = first;
+    for (uint32_t h = first; h != LIMNI_NONE; h = limni_half_edge_turn(mesh, h))
+        last = h;
+    const float incoming = mesh->edge_sharpness[limni_half_edge_previous(last)];
+    return mesh->edge_sharpness[first] < LIMNI_SHARP_FOR_EVER || incoming < LIMNI_SHARP_FOR_EVER;
+}
+
+void limni_mesh_open_boundary(limni_mesh *mesh) {
+    for (uint32_t c = 0; c < mesh->control_count; c++) {
+        if (!limni_is_boundary(mesh, c) || !has_open_boundary(mesh, c)) continue;
+        for (uint32_t h = mesh->first[c]; h != LIMNI_NONE; h = limni_half_edge_turn(mesh, h)) {
+            mesh->hole_count += !mesh->holes[h / 3];
+            mesh->holes[h / 3] = true;
+        }
+    }
+}
+
+static limn_bake_status convert_edges(limni_context *context, const limni_mesh *mesh,
+                                      limni_mesh_sharpness *sharpness) {
+    const size_t count = 3 * (size_t)mesh->face_count;
+    if (!any_above_zero(mesh->edge_sharpness, count)) return LIMN_BAKE_OK;
+    sharpness->edges = limni_allocate(context, count, sizeof *sharpness->edges);
+    sharpness->around =
+        limni_allocate_zeroed(context, mesh->control_count, sizeof *sharpness->around);
+    if (!sharpness->edges || !sharpness->around) return LIMN_BAKE_MEMORY;
+    for (uint32_t h = 0; h < count; h++) {
+        const bool boundary = mesh->pairs[h] == LIMNI_NONE;
+        const limni_sharpness s = limni_sharpness_from_float(mesh->edge_sharpness[h]);
+        sharpness->edges[h] = boundary ? LIMNI_SHARPNESS_INFINITE : s;
+        if (boundary) continue;
+        // The other end is counted from the other side.
+        limni_sharp_edges_add(&sharpness->around[limni_half_edge_start(mesh, h)], s);
+    }
+    return LIMN_BAKE_OK;
+}
+
+/// A boundary vertex with a single face.
+static bool is_boundary_corner(const limni_mesh *mesh, uint32_t control) {
+    return limni_is_boundary(mesh, control) && mesh->valences[control] == 2;
+}
+
+limn_bake_status limni_mesh_sharpness_begin(limni_context *context, const limni_mesh *mesh,
+                                            const limni_rules *rules,
+                                            limni_mesh_sharpness *sharpness) {
+    *sharpness = (limni_mesh_sharpness){
+        .vertices = limni_allocate(context, mesh->control_count, sizeof *sharpness->vertices)};
+    if (!sharpness->vertices) return LIMN_BAKE_MEMORY;
+    const bool sharpen = rules->boundary == LIMN_BOUNDARY_EDGE_AND_CORNER;
+    for (uint32_t c = 0; c < mesh->control_count; c++) {
+        const float tag = mesh->vertex_sharpness ? mesh->vertex_sharpness[c] : 0;
+        sharpness->vertices[c] = sharpen && is_boundary_corner(mesh, c)
+                                     ? LIMNI_SHARPNESS_INFINITE
+                                     : limni_sharpness_from_float(tag);
+    }
+    return convert_edges(context, mesh, sharpness);
+}
+
+void limni_mesh_sharpness_end(limni_context *context, limni_mesh_sharpness *sharpness) {
+    limni_release(context, sharpness->edges);
+    limni_release(context, sharpness->vertices);
+    limni_release(context, sharpness->around);
+}
+
+/// Adds the neighbour at the far end of half-edge h, which starts or ends at the star's vertex.
+static void add_neighbour(const limni_mesh_sharpness *sharpness, const limni_rules *rules,
+                          uint32_t h, uint32_t neighbour, limni_star *star) {
+    if (star->edges) {
+        const limni_sharpness s = sharpness->edges[h];
+        star->edges[star->count] = s;
+        star->beyond[star->count] =
+            limni_edge_sharpness_next(rules->creasing, s, sharpness->around[neighbour]);
+    }
+    star->ring[star->count++] = neighbour;
+}
+
+void limni_mesh_star(const limni_mesh *mesh, const limni_mesh_sharpness *sharpness,
+                     const limni_rules *rules, uint32_t h, limni_star *star) {
+    const uint32_t control = limni_half_edge_start(mesh, h);
+    star->closed = !limni_is_boundary(mesh, control);
+    star->count = 0;
+    star->sharpness = sharpness->vertices[control];
+    if (!sharpness->edges) star->edges = star->beyond = NULL;
+    const uint32_t start = star->closed ? h : mesh->first[control];
+    uint32_t turning = start, last;
+    do {
+        add_neighbour(sharpness, rules, turning, limni_half_edge_end(mesh, turning), star);
+        last = turning;
+        turning = limni_half_edge_turn(mesh, turning);
+    } while (turning != start && turning != LIMNI_NONE);
+    if (star->closed) return;
+    const uint32_t incoming = limni_half_edge_previous(last);
+    add_neighbour(sharpness, rules, incoming, limni_half_edge_start(mesh, incoming), star);
+}
