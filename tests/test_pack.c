@@ -29,28 +29,46 @@ typedef struct mesh_case {
     const float *positions;
     const uint32_t *faces;
     uint32_t position_count, face_count;
+    const uint32_t *crease_edges;
+    const float *crease_sharpness;
+    uint32_t crease_count;
 } mesh_case;
 
 static const float tetrahedron_positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
 static const uint32_t tetrahedron_faces[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
-static const mesh_case tetrahedron = {"tetrahedron", tetrahedron_positions, tetrahedron_faces, 4,
-                                      4};
+static const mesh_case tetrahedron = {.name = "tetrahedron",
+                                      .positions = tetrahedron_positions,
+                                      .faces = tetrahedron_faces,
+                                      .position_count = 4,
+                                      .face_count = 4};
 
 /// The same surface with other numbers, another place and one control point that no face uses.
 static const float twin_positions[] = {7, 7, 7, 3, 0, 0, 4, 0, 0, 3, 1, 0, 3, 0, 1};
 static const uint32_t twin_faces[] = {4, 2, 3, 3, 2, 1, 1, 2, 4, 1, 4, 3};
-static const mesh_case twin = {"twin", twin_positions, twin_faces, 5, 4};
+static const mesh_case twin = {.name = "twin",
+                               .positions = twin_positions,
+                               .faces = twin_faces,
+                               .position_count = 5,
+                               .face_count = 4};
 
 /// Three triangles around a corner of an open strip: several classes, all of them narrow.
 static const float strip_positions[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, -1, 1, 1};
 static const uint32_t strip_faces[] = {0, 1, 2, 0, 2, 3, 0, 3, 4};
-static const mesh_case strip = {"strip", strip_positions, strip_faces, 5, 3};
+static const mesh_case strip = {.name = "strip",
+                                .positions = strip_positions,
+                                .faces = strip_faces,
+                                .position_count = 5,
+                                .face_count = 3};
 
 /// A fan of WHEEL_SIZE triangles around vertex 0 with an open rim: its one class is wide.
 enum { WHEEL_SIZE = 260 };
 static float wheel_positions[3 * (WHEEL_SIZE + 1)];
 static uint32_t wheel_faces[3 * WHEEL_SIZE];
-static const mesh_case wheel = {"wheel", wheel_positions, wheel_faces, WHEEL_SIZE + 1, WHEEL_SIZE};
+static const mesh_case wheel = {.name = "wheel",
+                                .positions = wheel_positions,
+                                .faces = wheel_faces,
+                                .position_count = WHEEL_SIZE + 1,
+                                .face_count = WHEEL_SIZE};
 
 static void make_wheel(void) {
     for (uint32_t k = 0; k < WHEEL_SIZE; k++) {
@@ -116,7 +134,10 @@ static blob bake_with(limn_normals normals, const mesh_case *const *meshes, size
                                                  .positions = meshes[m]->positions,
                                                  .position_count = meshes[m]->position_count,
                                                  .face_count = meshes[m]->face_count,
-                                                 .face_indices = meshes[m]->faces}),
+                                                 .face_indices = meshes[m]->faces,
+                                                 .crease_edges = meshes[m]->crease_edges,
+                                                 .crease_sharpness = meshes[m]->crease_sharpness,
+                                                 .crease_count = meshes[m]->crease_count}),
                     LIMN_BAKE_OK);
     const void *bytes = NULL;
     size_t size = 0;
@@ -879,6 +900,49 @@ static void test_damaged_normals(void) {
     free(file.bytes);
 }
 
+/// Three edges that stay sharp around one vertex: a corner, and three darts.
+static const uint32_t crease_edges[] = {0, 1, 0, 2, 0, 3};
+static const float crease_sharpness[] = {10, 10, 10};
+
+static mesh_case creased_tetrahedron(void) {
+    mesh_case creased = tetrahedron;
+    creased.crease_edges = crease_edges;
+    creased.crease_sharpness = crease_sharpness;
+    creased.crease_count = 3;
+    return creased;
+}
+
+/// What must be refused of the data for creases.
+static void test_damaged_creases(void) {
+    const mesh_case creased = creased_tetrahedron();
+    const blob file = bake_with(LIMN_NORMALS_EXACT, (const mesh_case *[]){&creased}, 1);
+    const limn_file_chunk *const creases = find_chunk(&file, 0, LIMN_CHUNK_CREASES);
+    const limn_file_chunk *const sides = find_chunk(&file, 0, LIMN_CHUNK_SIDES);
+    const limn_file_chunk *const corners = find_chunk(&file, 0, LIMN_CHUNK_CORNERS);
+    CHECK_EQUAL(sides->size, 2 * sizeof(limn_file_side)); // two more at the corner
+    const uint64_t normal = sides->offset + offsetof(limn_file_side, normal);
+    const struct {
+        uint64_t at;
+        uint32_t value;
+        limn_result expected;
+    } cases[] = {
+        {creases->offset, 8, LIMN_ERROR_MESH},
+        {sides->offset, 4, LIMN_ERROR_NORMALS},
+        {normal + offsetof(limn_file_normal, first_ring), 10, LIMN_ERROR_NORMALS},
+        {normal + offsetof(limn_file_normal, first_weight), 0xffffff00, LIMN_ERROR_NORMALS},
+        {corners->offset, 6, LIMN_ERROR_NORMALS},
+    };
+    for (size_t c = 0; c < COUNT(cases); c++) {
+        const blob changed = copy_blob(&file, file.size);
+        memcpy(changed.bytes + cases[c].at, &cases[c].value, sizeof cases[c].value);
+        fix_checksum(&changed);
+        CHECK_EQUAL(open_result(changed.bytes, changed.size), cases[c].expected);
+        free(changed.bytes);
+    }
+    free(file.bytes);
+    test_mended_words(LIMN_NORMALS_EXACT, (const mesh_case *[]){&creased}, 1);
+}
+
 int main(void) {
     make_wheel();
     test_views();
@@ -892,6 +956,7 @@ int main(void) {
     test_mended_words(LIMN_NORMALS_NONE, (const mesh_case *[]){&strip}, 1);
     test_mended_words(LIMN_NORMALS_EXACT, (const mesh_case *[]){&strip, &twin}, 2);
     test_damaged_normals();
+    test_damaged_creases();
     test_damages();
     test_unknown_chunks();
     test_result_texts();

@@ -28,13 +28,13 @@ static void put_right(unsigned char *blob, size_t size) {
 static void evaluate(const limn_mesh *mesh, uint32_t level) {
     const limn_plan plan = limn_plan_uniform(mesh, level);
     if (plan.vertex_count == 0 || plan.vertex_count > VERTICES_MAX ||
-        mesh->control_count > VERTICES_MAX)
+        mesh->control_count > VERTICES_MAX || mesh->normal_count > VERTICES_MAX)
         return;
     const size_t vertex_size = 3 * sizeof(float);
     float *const vertices = malloc((size_t)plan.vertex_count * vertex_size);
     float *const normals = malloc((size_t)plan.vertex_count * vertex_size);
-    float *const control_normals = malloc(mesh->control_count * vertex_size);
-    FUZZ_REQUIRE(vertices && normals && control_normals);
+    float *const control_normals = malloc(mesh->normal_count * vertex_size);
+    FUZZ_REQUIRE(vertices && normals && (control_normals || mesh->normal_count == 0));
     limn_output output = {.vertices = vertices};
     if (mesh->normals) {
         limn_mesh_control_normals(mesh, mesh->controls, control_normals);
