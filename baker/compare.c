@@ -2,7 +2,7 @@
 #include "compare.h"
 
 #include "info.h"
-#include "mesh.h"
+#include "mesh_sharpness.h"
 #include "opensubdiv.h"
 
 #include <float.h>
@@ -24,13 +24,98 @@ static limn_bake_status check_same(limni_context *context, const limn_mesh *mesh
 typedef struct answer {
     double (*limit)[3];
     double (*tangents)[2][3]; ///< NULL for a mesh without normals
+    bool *comparable;         ///< [control_count] whether normals are, at control points
+    bool sided;               ///< on creases, each face has the tangents of its own side
 } answer;
+
+/// What a file says about how it was baked, or where its meshes differ, what the mesh asked for.
+static limn_boundary boundary_of(const char *name, const limni_mesh *source) {
+    if (strcmp(name, "mixed") == 0) return source->boundary;
+    if (strcmp(name, "none") == 0) return LIMN_BOUNDARY_NONE;
+    return strcmp(name, "edge-and-corner") == 0 ? LIMN_BOUNDARY_EDGE_AND_CORNER
+                                                : LIMN_BOUNDARY_EDGE_ONLY;
+}
+
+static limn_creasing creasing_of(const char *name, const limni_mesh *source) {
+    if (strcmp(name, "mixed") == 0) return source->creasing;
+    return strcmp(name, "chaikin") == 0 ? LIMN_CREASING_CHAIKIN : LIMN_CREASING_UNIFORM;
+}
+
+/// Smooth edges, one after the other, between two edges that stay sharp.
+typedef struct smooth_runs {
+    uint32_t least, most;
+} smooth_runs;
+
+static smooth_runs find_smooth_runs(const limni_star *star, uint32_t first_sharp) {
+    smooth_runs runs = {.least = UINT32_MAX};
+    uint32_t run = 0;
+    for (uint32_t r = 1; r <= (star->closed ? star->count : star->count - 1); r++) {
+        const uint32_t place = (first_sharp + r) % star->count;
+        if (limni_star_edge(star, place) < LIMNI_SHARPNESS_INFINITE) {
+            run++;
+            continue;
+        }
+        if (run < runs.least) runs.least = run;
+        if (run > runs.most) runs.most = run;
+        run = 0;
+    }
+    return runs;
+}
+
+/// Whether normals at a control point can be compared (docs/design.md). OpenSubdiv's tangents at
+/// boundary vertices of valence 5 and more are not those of the limit, but converge to them with the
+/// level of refinement, and those of its surfaces on creases likewise at all but regular ones, and
+/// at corners with smooth edges. Ours are not those of the limit at the end of a crease.
+///
+/// sided  see answer
+static bool has_comparable_normals(const limni_star *star, bool sided) {
+    const limni_feature last = limni_star_last_feature(star);
+    const bool boundary = !star->closed && last.rule == LIMNI_VERTEX_CREASE;
+    if (!sided && !boundary && last.rule != LIMNI_VERTEX_SMOOTH) return false;
+    const bool any_sharp = limni_star_edge(star, last.ends[0]) >= LIMNI_SHARPNESS_INFINITE;
+    const smooth_runs runs = any_sharp ? find_smooth_runs(star, last.ends[0]) : (smooth_runs){0};
+    switch (last.rule) {
+    case LIMNI_VERTEX_SMOOTH:
+        return true;
+    case LIMNI_VERTEX_CREASE:
+        return runs.most < 3 && (runs.least == 2 || !star->edges);
+    case LIMNI_VERTEX_CORNER:
+        return any_sharp && runs.most == 0;
+    default:
+        return false;
+    }
+}
+
+/// Finds which control points have normals that can be compared.
+static limn_bake_status find_comparable(limni_context *context, const limni_mesh *source,
+                                        const limni_opensubdiv_mesh *how, bool **comparable) {
+    const limni_rules rules = {.boundary = how->boundary, .creasing = how->creasing};
+    limni_mesh_sharpness sharpness;
+    uint32_t valence_max = 0;
+    LIMNI_TRY(limni_mesh_sharpness_begin(context, source, &rules, &sharpness));
+    for (uint32_t c = 0; c < source->control_count; c++)
+        valence_max = source->valences[c] > valence_max ? source->valences[c] : valence_max;
+    uint32_t *const room = limni_allocate(context, 3 * (size_t)valence_max, sizeof *room);
+    *comparable = limni_allocate_zeroed(context, source->control_count, sizeof **comparable);
+    if (!room || !*comparable) return LIMN_BAKE_MEMORY;
+    for (uint32_t c = 0; c < source->control_count; c++) {
+        limni_star star = {
+            .ring = room, .edges = room + valence_max, .beyond = room + 2 * (size_t)valence_max};
+        if (source->first[c] == LIMNI_NONE) continue;
+        limni_mesh_star(source, &sharpness, &rules, source->first[c], &star);
+        (*comparable)[c] = has_comparable_normals(&star, how->creasing != LIMN_CREASING_CHAIKIN);
+    }
+    limni_release(context, room);
+    limni_mesh_sharpness_end(context, &sharpness);
+    return LIMN_BAKE_OK;
+}
 
 static limn_bake_status oracle(limni_context *context, const limn_pack *pack,
                                const limni_mesh *source, bool with_normals, answer *given) {
-    char weights[32], boundary[32], error[512];
+    char weights[32], boundary[32], creasing[32], error[512];
     limni_info_value(pack->info, "weights", weights, sizeof weights);
     limni_info_value(pack->info, "boundary", boundary, sizeof boundary);
+    limni_info_value(pack->info, "creasing", creasing, sizeof creasing);
     if (strcmp(weights, "loop") != 0)
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
                           "the file was baked with %s weights, which OpenSubdiv does not have",
@@ -40,16 +125,20 @@ static limn_bake_status oracle(limni_context *context, const limn_pack *pack,
         .faces = source->faces[0],
         .position_count = source->control_count,
         .face_count = source->face_count,
-        .boundary = strcmp(boundary, "mixed") == 0             ? source->boundary
-                    : strcmp(boundary, "edge-and-corner") == 0 ? LIMN_BOUNDARY_EDGE_AND_CORNER
-                                                               : LIMN_BOUNDARY_EDGE_ONLY,
+        .boundary = boundary_of(boundary, source),
         .level = LIMN_LEVEL_MAX,
+        .edge_sharpness = source->edge_sharpness,
+        .vertex_sharpness = source->vertex_sharpness,
+        .holes = source->holes,
+        .creasing = creasing_of(creasing, source),
     };
     const uint32_t row_count = limn_domain_get(LIMN_DOMAIN_TRIANGLE)->row_counts[LIMN_LEVEL_MAX];
     const size_t count = (size_t)source->face_count * row_count;
     given->limit = limni_allocate(context, count, sizeof *given->limit);
     if (with_normals) given->tangents = limni_allocate(context, count, sizeof *given->tangents);
     if (!given->limit || (with_normals && !given->tangents)) return LIMN_BAKE_MEMORY;
+    given->sided = mesh.creasing != LIMN_CREASING_CHAIKIN;
+    LIMNI_TRY(find_comparable(context, source, &mesh, &given->comparable));
     if (!limni_opensubdiv_limit(&mesh, given->limit, given->tangents, error, sizeof error))
         return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: OpenSubdiv: %s", source->path, error);
     return LIMN_BAKE_OK;
@@ -104,24 +193,24 @@ static double angle_between(const float normal[3], const double tangents[2][3]) 
     return atan2(length(across), along); // exact for small angles, unlike acos
 }
 
-/// At boundary vertices of valence 5 and more OpenSubdiv's tangents are not those of the limit, but
-/// converge to them with the level of refinement (docs/design.md).
-static bool is_comparable(const limn_mesh *mesh, const limni_mesh *source, uint32_t patch,
+static bool is_comparable(const limn_mesh *mesh, const bool *comparable, bool sided, uint32_t patch,
                           uint32_t row) {
     uint32_t corners[LIMN_CORNER_MAX];
-    if (row >= mesh->domain->corner_count) return true;
+    if (row >= mesh->domain->corner_count)
+        return sided || !mesh->creases || !(mesh->creases[patch] & mesh->domain->rows[row].edges);
     limn_mesh_corners(mesh, patch, corners);
-    return !limni_is_boundary(source, corners[row]) || source->valences[corners[row]] < 5;
+    return comparable[corners[row]];
 }
 
-static void compare_normals(const limn_mesh *mesh, const limni_mesh *source, uint32_t patch,
-                            const float (*normals)[3], const double (*tangents)[2][3],
-                            uint32_t unrotated[3][256], limni_comparison *comparison) {
+static void compare_normals(const limn_mesh *mesh, const answer *given, uint32_t patch,
+                            const float (*normals)[3], uint32_t unrotated[3][256],
+                            limni_comparison *comparison) {
     const uint32_t row_count = mesh->domain->row_counts[LIMN_LEVEL_MAX];
     const limn_patch_face face = limn_mesh_face(mesh, patch);
+    const double(*const tangents)[2][3] = (const double(*)[2][3])given->tangents;
     for (uint32_t row = 0; row < row_count; row++) {
         const size_t other = (size_t)face.face * row_count + unrotated[face.rotation][row];
-        if (!is_comparable(mesh, source, patch, row)) continue;
+        if (!is_comparable(mesh, given->comparable, given->sided, patch, row)) continue;
         if (!span_plane(tangents[other], 1e-9 * comparison->diagonal)) {
             comparison->degenerate_count++;
             continue;
@@ -171,7 +260,7 @@ limn_bake_status limni_compare(limni_context *context, const limn_pack *pack, co
         limni_allocate(context, (size_t)plan.vertex_count, sizeof *vertices);
     float(*const normals)[3] = limni_allocate(context, (size_t)plan.vertex_count, sizeof *normals);
     float(*const control_normals)[3] =
-        limni_allocate(context, mesh->control_count, sizeof *control_normals);
+        limni_allocate(context, mesh->normal_count, sizeof *control_normals);
     if (!vertices || !normals || !control_normals) return LIMN_BAKE_MEMORY;
     limn_output output = {.vertices = vertices};
     if (mesh->normals) {
@@ -200,8 +289,7 @@ limn_bake_status limni_compare(limni_context *context, const limn_pack *pack, co
         compare_patch(mesh, patch, (const float(*)[3])vertices, (const double(*)[3])given.limit,
                       unrotated, comparison);
         if (mesh->normals)
-            compare_normals(mesh, &built, patch, (const float(*)[3])normals,
-                            (const double(*)[2][3])given.tangents, unrotated, comparison);
+            compare_normals(mesh, &given, patch, (const float(*)[3])normals, unrotated, comparison);
     }
     if (comparison->normal_count) comparison->mean_angle /= (double)comparison->normal_count;
     comparison->mean /= (double)plan.vertex_count;

@@ -24,17 +24,25 @@ typedef struct limni_opensubdiv_mesh {
     uint32_t face_count; ///< at most a million
     limn_boundary boundary;
     uint32_t level; ///< of the grid, 0 to LIMN_LEVEL_MAX; no default: 0 is the corners alone
+    const float *edge_sharpness; ///< [face_count][3] of the edges from corners 0, 1 and 2; NULL: 0
+    const float *vertex_sharpness; ///< [position_count]; NULL: 0
+    const bool *holes;             ///< [face_count]; NULL: none
+    limn_creasing creasing;
 } limni_opensubdiv_mesh;
 
-/// Limit positions of Loop's scheme at every grid vertex of every face, in double precision:
-/// uniform refinement to mesh->level, then PrimvarRefiner::Limit. At level 4 it takes some 60 KB
-/// and 0.1 ms for each face. Returns false, with a text in `error`, when an index is out of range,
+/// Limit positions of Loop's scheme at every grid vertex of every face, in double precision. Without
+/// sharpness and holes: uniform refinement to mesh->level, then PrimvarRefiner::Limit. At level 4
+/// it takes some 60 KB and 0.1 ms for each face. Otherwise Bfr's surfaces at level 10, where all
+/// sharpness has decayed; with Chaikin's method, in which they are wrong in places, again uniform
+/// refinement, to the level where it has. Returns false, with a text in `error`, when an index is out of range,
 /// when OpenSubdiv refuses, when an edge or vertex is not manifold for it, or when out of memory.
 ///
 /// limit             out: [face_count][domain->row_counts[level]], the rows of the triangle domain
-///                   with corner c of the face as corner c of the domain; untouched on failure
-/// tangents          out, or NULL: two tangents at the same places, of any length; their
-///                   cross product is the normal
+///                   with corner c of the face as corner c of the domain; not a number where
+///                   OpenSubdiv has no surface
+/// tangents          out, or NULL: two tangents at the same places, of any length, of the face's
+///                   own side of a crease, or with Chaikin's method of either; their cross product
+///                   is the normal
 /// error             [error_size] bytes, error_size > 0; "" on success
 bool limni_opensubdiv_limit(const limni_opensubdiv_mesh *mesh, double (*limit)[3],
                             double (*tangents)[2][3], char *error, size_t error_size);

@@ -89,13 +89,59 @@ void require_manifold(const Far::TopologyLevel &base) {
     }
 }
 
-Sdc::Options scheme_options(limn_boundary boundary) {
+Sdc::Options::VtxBoundaryInterpolation boundary_interpolation(limn_boundary boundary) {
+    switch (boundary) {
+    case LIMN_BOUNDARY_EDGE_AND_CORNER:
+        return Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER;
+    case LIMN_BOUNDARY_NONE:
+        return Sdc::Options::VTX_BOUNDARY_NONE;
+    default:
+        return Sdc::Options::VTX_BOUNDARY_EDGE_ONLY;
+    }
+}
+
+Sdc::Options scheme_options(const limni_opensubdiv_mesh &mesh) {
     Sdc::Options options;
-    options.SetVtxBoundaryInterpolation(boundary == LIMN_BOUNDARY_EDGE_AND_CORNER
-                                            ? Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER
-                                            : Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
+    options.SetVtxBoundaryInterpolation(boundary_interpolation(mesh.boundary));
+    options.SetCreasingMethod(mesh.creasing == LIMN_CREASING_CHAIKIN
+                                  ? Sdc::Options::CREASE_CHAIKIN
+                                  : Sdc::Options::CREASE_UNIFORM);
     return options;
 }
+
+/// What a descriptor points to.
+struct tags {
+    std::vector<Far::Index> crease_ends, corners, holes;
+    std::vector<float> crease_weights, corner_weights;
+
+    explicit tags(const limni_opensubdiv_mesh &mesh) {
+        for (size_t h = 0; mesh.edge_sharpness && h < size_t(3) * mesh.face_count; h++) {
+            if (!(mesh.edge_sharpness[h] > 0)) continue;
+            crease_ends.push_back(Far::Index(mesh.faces[h]));
+            crease_ends.push_back(Far::Index(mesh.faces[h % 3 == 2 ? h - 2 : h + 1]));
+            crease_weights.push_back(mesh.edge_sharpness[h]);
+        }
+        for (uint32_t v = 0; mesh.vertex_sharpness && v < mesh.position_count; v++) {
+            if (!(mesh.vertex_sharpness[v] > 0)) continue;
+            corners.push_back(Far::Index(v));
+            corner_weights.push_back(mesh.vertex_sharpness[v]);
+        }
+        for (uint32_t face = 0; mesh.holes && face < mesh.face_count; face++) {
+            if (mesh.holes[face]) holes.push_back(Far::Index(face));
+        }
+    }
+
+    void describe(Far::TopologyDescriptor &descriptor) const {
+        descriptor.numCreases = int(crease_weights.size());
+        descriptor.creaseVertexIndexPairs = crease_ends.data();
+        descriptor.creaseWeights = crease_weights.data();
+        descriptor.numCorners = int(corners.size());
+        descriptor.cornerVertexIndices = corners.data();
+        descriptor.cornerWeights = corner_weights.data();
+        descriptor.numHoles = int(holes.size());
+        descriptor.holeIndices = holes.data();
+    }
+};
 
 } // namespace
 
@@ -108,9 +154,11 @@ refiner_pointer create_refiner(const limni_opensubdiv_mesh &mesh) {
     descriptor.numFaces = int(mesh.face_count);
     descriptor.numVertsPerFace = face_sizes.data();
     descriptor.vertIndicesPerFace = corners.data();
+    const tags of_mesh(mesh);
+    of_mesh.describe(descriptor);
 
     using factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-    factory::Options options(Sdc::SCHEME_LOOP, scheme_options(mesh.boundary));
+    factory::Options options(Sdc::SCHEME_LOOP, scheme_options(mesh));
     options.validateFullTopology = true;
     refiner_pointer refiner(factory::Create(descriptor, options));
     require(refiner != nullptr, "OpenSubdiv refused the mesh");

@@ -83,9 +83,12 @@ void destroy(void *self_state) {
 }
 
 void create_surfaces(const peer_scene &where, surfaces &built) {
-    const limni_opensubdiv_mesh mesh = {where.controls[0],       where.faces[0],
-                                        where.control_count,     where.face_count,
-                                        LIMN_BOUNDARY_EDGE_ONLY, where.level};
+    limni_opensubdiv_mesh mesh = {};
+    mesh.positions = where.controls[0];
+    mesh.faces = where.faces[0];
+    mesh.position_count = where.control_count;
+    mesh.face_count = where.face_count;
+    mesh.level = where.level;
     built.refiner = create_refiner(mesh);
     Bfr::SurfaceFactory::Options options;
     options.SetApproxLevelSmooth(APPROXIMATION_LEVEL).SetApproxLevelSharp(APPROXIMATION_LEVEL);

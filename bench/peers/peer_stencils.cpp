@@ -176,9 +176,12 @@ std::unique_ptr<const stencil_table> build(const peer_scene &where, peer_points 
                                            bool derivatives, double &build_ms) {
     const double start = bench_seconds();
     require(where.face_count <= FACE_COUNT_MAX, "too many faces for OpenSubdiv's stencils");
-    const limni_opensubdiv_mesh mesh = {where.controls[0],       where.faces[0],
-                                        where.control_count,     where.face_count,
-                                        LIMN_BOUNDARY_EDGE_ONLY, where.level};
+    limni_opensubdiv_mesh mesh = {};
+    mesh.positions = where.controls[0];
+    mesh.faces = where.faces[0];
+    mesh.position_count = where.control_count;
+    mesh.face_count = where.face_count;
+    mesh.level = where.level;
     const refiner_pointer refiner = create_refiner(mesh);
     const locations found = locate(where, points);
     refiner->RefineAdaptive(Far::TopologyRefiner::AdaptiveOptions(REFINEMENT_LEVEL));

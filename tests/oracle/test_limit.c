@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Every mesh, baked and evaluated at level 4, beside OpenSubdiv refined uniformly to level 4 and
- * projected to the limit in double precision: all 153 rows of every face within 3e-7 of the
- * diagonal.
+ * Every mesh, baked and evaluated at level 4, beside OpenSubdiv's limit in double precision: all 153
+ * rows of every face within 3e-7 of the diagonal. Tags and all; and random tags.
  */
 #include "../../baker/compare.h"
+#include "../../baker/source.h"
 #include "../check.h"
 #include "../mesh_files.h"
 
@@ -63,8 +63,76 @@ static void visit(const char *path) {
     }
 }
 
+// ---- Random tags
+
+static uint32_t random_state = 1;
+
+static uint32_t next_random(uint32_t count) {
+    random_state = random_state * 1664525u + 1013904223u;
+    return (random_state >> 8) % count;
+}
+
+/// For ever, of whole levels, below 1, or any.
+static double random_sharpness(bool chaikin) {
+    const uint32_t most = chaikin ? 4 : 9; // Chaikin's method is compared by uniform refinement
+    switch (next_random(4)) {
+    case 0:
+        return 10;
+    case 1:
+        return 1 + next_random(most);
+    case 2:
+        return next_random(1000) / 1000.0;
+    default:
+        return next_random(most * 1000) / 1000.0;
+    }
+}
+
+static void write_tags(FILE *file, const limni_source *source, bool chaikin) {
+    const uint32_t one_in = 2 + next_random(8);
+    if (chaikin) fprintf(file, "t creasemethod 0/0/1 chaikin\n");
+    fprintf(file, "t interpolateboundary 1/0/0 %u\n", 1 + next_random(2));
+    for (uint32_t c = 0; c + 1 < source->face_offsets[source->face_count]; c++) {
+        if (next_random(one_in) || (c + 1) % 3 == 0) continue;
+        fprintf(file, "t crease 2/1/0 %u %u %.9g\n", source->face_corners[c],
+                source->face_corners[c + 1], random_sharpness(chaikin));
+    }
+    for (uint32_t v = 0; v < source->position_count; v++) {
+        if (next_random(10)) continue;
+        fprintf(file, "t corner 1/1/0 %u %.9g\n", v, random_sharpness(chaikin));
+    }
+    fprintf(file, "t hole 1/0/0 %u\n", next_random(source->face_count));
+}
+
+/// A mesh of triangles with tags of its own.
+static void test_random_tags(const char *path, bool chaikin) {
+    static const char tagged[] = "test_limit_tagged.obj";
+    limni_context context = {0};
+    limni_source source = {0};
+    FILE *const file = fopen(tagged, "w");
+    if (!CHECK(file) || !CHECK_EQUAL(limni_read_file(&context, path, &source), LIMN_BAKE_OK))
+        return;
+    for (uint32_t v = 0; v < source.position_count; v++) {
+        const float *const at = source.positions[v];
+        fprintf(file, "v %.9g %.9g %.9g\n", (double)at[0], (double)at[1], (double)at[2]);
+    }
+    for (uint32_t c = 0; c < source.face_offsets[source.face_count]; c++)
+        fprintf(file, "%s%u", c % 3 ? " " : "\nf ", source.face_corners[c] + 1);
+    fprintf(file, "\n");
+    write_tags(file, &source, chaikin);
+    const int closed = fclose(file);
+    CHECK(closed == 0);
+    const limn_bake_desc exact = {.normals = LIMN_NORMALS_EXACT};
+    CHECK(compare(tagged, &exact));
+    remove(tagged);
+    limni_release_all(&context);
+}
+
 int main(void) {
+    char path[4096];
     CHECK(mesh_files_visit(visit) > 0);
+    snprintf(path, sizeof path, "%s/sail.obj", getenv("LIMN_ASSETS"));
+    for (int round = 0; round < 8; round++)
+        test_random_tags(path, round % 2);
     printf("largest difference of all: %.2e of the diagonal, %.2e radians\n", largest_of_all,
            largest_angle);
     return check_report();
