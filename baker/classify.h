@@ -2,12 +2,12 @@
 /*
  * Topology classes: faces whose surroundings are the same up to naming share one stencil table.
  *
- * The key of a face is its whole 1-neighbourhood in canonical form: valences and boundary status of
- * the corners, then the rings as slots, and where something is sharp inside, all sharpness. Slots are given in the order of a walk around the corners,
- * so a control point that occurs in two rings, as on small meshes, shows in the key. Canonical
- * rotation: where two valences are equal, the third comes first, so that a mirror line, if there is
- * one, goes through the first corner; otherwise Brickhill's, lowest valence first. Ties are decided
- * by the rest of the key.
+ * The key of a face is its whole 1-neighbourhood in canonical form: valences and boundary status
+ * of the corners, then the rings as slots, and where something is sharp inside, all sharpness.
+ * Slots are given in the order of a walk around the corners, so a control point that occurs in
+ * two rings, as on small meshes, shows in the key. Canonical rotation: where two valences are
+ * equal, the third comes first, so that a mirror line, if there is one, goes through the first
+ * corner; otherwise Brickhill's, lowest valence first. Ties are decided by the rest of the key.
  */
 #ifndef LIMNI_CLASSIFY_H
 #define LIMNI_CLASSIFY_H

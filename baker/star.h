@@ -30,7 +30,7 @@ typedef enum limni_vertex_rule {
 /// What a vertex is.
 typedef struct limni_feature {
     limni_vertex_rule rule;
-    uint32_t ends[2]; ///< of a crease: the places of its two edges in the ring
+    uint32_t ends[2]; ///< of a crease: the places of its two edges in the ring; of a dart: [0]
 } limni_feature;
 
 /// How a vertex goes through a level: its mask is `weight` of that for what it is, and the rest of

@@ -22,10 +22,10 @@ typedef enum limni_projection {
 ///
 /// positions  out: [row_counts[depth]][control_count] coefficients in the row order of the triangle
 ///            domain; each row sums to 1 within a few units of 2^-60
-/// tangents   out, or NULL; only of the limit: the same for the two tangents of the limit surface, [2][…][…]; rows
-///            inside an edge have them along the edge and across, so that the neighbour has both
-///            negated, or on a crease the own side's; the corners, whose normals belong to the
-///            control points, have zeros
+/// tangents   out, or NULL; only of the limit: the same for its two tangents, [2][…][…]; rows inside
+///            an edge have them along the edge and across, so that the neighbour has both negated,
+///            or on a crease the own side's; the corners, whose normals belong to the control
+///            points, have zeros
 limn_bake_status limni_subdivide(limni_context *context, const limni_rules *rules,
                                  const limni_neighbourhood *neighbourhood, int depth,
                                  limni_projection projection, limni_fixed *positions,

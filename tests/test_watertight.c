@@ -154,6 +154,9 @@ static void check_mesh(subject *s) {
     free(other);
 }
 
+/// Below 0 only where it is what two floats leave, and with Chaikin's method (docs/design.md).
+static double least_coefficient = -0x1p-26;
+
 static void check_tables(const limn_pack *pack, const limn_mesh *mesh) {
     for (uint32_t c = 0; c < pack->class_count; c++) {
         const limn_file_class *const class = &mesh->classes[c];
@@ -162,7 +165,7 @@ static void check_tables(const limn_pack *pack, const limn_mesh *mesh) {
             double sum = 0;
             for (uint32_t slot = 0; slot < class->control_count; slot++) {
                 const double coefficient = coefficient_at(class, false, table, row, slot);
-                CHECK(coefficient >= -0x1p-26); // below 0 only where it is what two floats leave
+                CHECK(coefficient >= least_coefficient);
                 sum += coefficient;
             }
             // Rounding to float moves each coefficient by at most 2^-24 of itself, and they sum
@@ -236,6 +239,38 @@ static void test_flat(void) {
     remove(path);
 }
 
+/// A torus of 12 by 8 quads, cut in two, with tags from 0 to for ever on a third of its edges:
+/// creases that cross, end and stop, beside semi-sharp ones.
+static void test_tagged(bool chaikin) {
+    enum { AROUND = 12, ACROSS = 8, COUNT = AROUND * ACROSS };
+    static const char path[] = "test_watertight_tagged.obj";
+    FILE *const file = fopen(path, "w");
+    if (!CHECK(file)) return;
+    if (chaikin) fprintf(file, "t creasemethod 0/0/1 chaikin\n");
+    for (int v = 0; v < COUNT; v++) {
+        const double u = 6.283185307 * (v % AROUND) / AROUND,
+                     w = 6.283185307 * (v / AROUND) / ACROSS;
+        fprintf(file, "v %.6f %.6f %.6f\n", (3 + cos(w)) * cos(u), (3 + cos(w)) * sin(u), sin(w));
+    }
+    for (int v = 0; v < COUNT; v++) {
+        const int right = v / AROUND * AROUND + (v + 1) % AROUND;
+        const int up = (v + AROUND) % COUNT, far = (right + AROUND) % COUNT;
+        fprintf(file, "f %d %d %d\nf %d %d %d\n", v + 1, right + 1, far + 1, v + 1, far + 1,
+                up + 1);
+        const int ends[3] = {right, far, up};
+        if (v % 11 == 0) fprintf(file, "t corner 1/1/0 %d %g\n", v, v % 3 * 0.85);
+        fprintf(file, "t crease 2/1/0 %d %d %g\n", v, ends[v % 3], v % 4 ? v % 7 * 0.55 : 10.0);
+    }
+    const int closed_file = fclose(file);
+    CHECK(closed_file == 0);
+    const unsigned long long before = split_vertices;
+    least_coefficient = chaikin ? -1.0 / 24 : -0x1p-26;
+    visit(path);
+    least_coefficient = -0x1p-26;
+    CHECK(split_vertices > before);
+    remove(path);
+}
+
 static void test_warren(const char *path) {
     subject s;
     if (CHECK(load(&s, path, 0, LIMN_WEIGHTS_WARREN))) {
@@ -287,6 +322,8 @@ int main(void) {
            "creases without their normals\n",
            total_meshes, refused_meshes, total_vertices, split_vertices);
     test_flat();
+    test_tagged(false);
+    test_tagged(true);
     static const uint32_t valences[] = {3, 7, 20, 26, 64, 255, 300, 500};
     for (int v = 0; v < 8; v++) {
         test_generated(valences[v], true);
