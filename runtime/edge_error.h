@@ -66,8 +66,8 @@ static inline float limni_log2(float x) {
     return exponent + t + 0.3466f * t * (1.0f - t);
 }
 
-/// What levels follow from: the error at level 0; 1 / factor and 1 / (1 - factor) for each level and
-/// the next but the last.
+/// What levels follow from: the error at level 0; 1 / factor and 1 / (1 - factor) for each level
+/// and the next but the last.
 typedef struct limni_error_curve {
     float first, inverses[LIMN_LEVEL_MAX - 1], slopes[LIMN_LEVEL_MAX - 1];
 } limni_error_curve;

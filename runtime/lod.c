@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Loops over whole blocks, without branches: what lies behind the last patch is computed as well. */
+/* Loops over whole blocks, without branches: what lies behind the last patch is computed, too. */
 #include "lod.h"
 
 #include "edge_error.h"

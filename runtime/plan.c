@@ -25,7 +25,10 @@ uint64_t limn_plan_first_vertex(const limn_plan *plan, uint32_t patch_index) {
 
 // ---- Levels of detail
 
-enum { TEMPLATE_MAX = 256, PLANES = 6 };
+enum {
+    TEMPLATE_MAX = 256,
+    PLANES = 6 ///< of a view
+};
 
 typedef struct planner {
     const limn_mesh *mesh;
@@ -245,31 +248,24 @@ static void make_draws(const planner *p, const limn_template *templates, limn_dr
     plan->draws = draws;
 }
 
-/// Where what a planner writes lies in the caller's memory.
-typedef struct plan_memory {
-    limn_draw *draws;
-    size_t size;
-} plan_memory;
+/// Where what a planner writes lies in the caller's memory, behind the patches: in bytes.
+typedef struct plan_layout {
+    size_t draws, levels, outside, size;
+} plan_layout;
 
-/// memory  NULL: only the size is wanted
-static plan_memory divide_memory(const limn_mesh *mesh, unsigned char *memory, planner *p) {
+static plan_layout lay_out(const limn_mesh *mesh) {
     const size_t patch_count = mesh->patch_count;
     const size_t block_count = (patch_count + LIMNI_LOD_BLOCK - 1) / LIMNI_LOD_BLOCK;
-    const size_t draws = patch_count * sizeof(limn_plan_patch);
-    const size_t levels = draws + patch_count * sizeof(limn_draw);
-    const size_t outside = levels + block_count * sizeof(limni_lod_levels);
-    if (memory) {
-        p->patches = (limn_plan_patch *)(void *)memory;
-        p->levels = (limni_lod_levels *)(void *)(memory + levels);
-        p->outside = (uint32_t *)(void *)(memory + outside);
-    }
-    return (plan_memory){.draws = memory ? (limn_draw *)(void *)(memory + draws) : NULL,
-                         .size = outside + (size_t)mesh->control_count * sizeof(uint32_t)};
+    plan_layout l = {.draws = patch_count * sizeof(limn_plan_patch)};
+    l.levels = l.draws + patch_count * sizeof(limn_draw);
+    l.outside = l.levels + block_count * sizeof(limni_lod_levels);
+    l.size = l.outside + (size_t)mesh->control_count * sizeof(uint32_t);
+    return l;
 }
 
 size_t limn_plan_size(const limn_mesh *mesh) {
     LIMNI_REQUIRE(mesh, 0);
-    return divide_memory(mesh, NULL, NULL).size;
+    return lay_out(mesh).size;
 }
 
 /// Uniform levels ask for no more than the planes of a view.
@@ -303,12 +299,16 @@ limn_plan limn_plan_build(const limn_mesh *mesh, const float *controls, const li
     LIMNI_REQUIRE(is_valid_desc(mesh, &p.desc), (limn_plan){0});
     for (uint32_t v = 0; v < view_count; v++)
         LIMNI_REQUIRE(is_valid_view(&views[v], p.desc.lod == LIMN_LOD_UNIFORM), (limn_plan){0});
-    limn_draw *const draws = divide_memory(mesh, memory, &p).draws;
+    const plan_layout layout = lay_out(mesh);
+    unsigned char *const bytes = memory;
+    p.patches = memory;
+    p.levels = (limni_lod_levels *)(void *)(bytes + layout.levels);
+    p.outside = (uint32_t *)(void *)(bytes + layout.outside);
     mark_outside(&p);
     list_patches(&p);
     limn_plan plan = {.mesh = mesh, .patch_count = p.patch_count, .patches = p.patches};
     finish_patches(&p, find_lowering(&p), &plan);
     if (plan.vertex_count > INT32_MAX) return (limn_plan){0};
-    if (templates) make_draws(&p, templates, draws, &plan);
+    if (templates) make_draws(&p, templates, (limn_draw *)(void *)(bytes + layout.draws), &plan);
     return plan;
 }

@@ -174,7 +174,7 @@ static LIMNI_NOINLINE void store_patch(const limni_target *target, const parts *
     if (target->streaming) {
         stream_parts(to, planes, what->row_count);
     } else {
-        store_parts(to, planes, 0, what->row_count);
+        store_parts(to, planes, what->row_count);
     }
 }
 
@@ -322,7 +322,7 @@ static LIMNI_INLINE void evaluate_patches(const limni_run *run, const gathering 
         sum_patch(&p, run, &which, g, origin, target->domain, !tight && from->normals, &rows);
         if (tight) {
             if (item) morph_patch(target->domain, item, false, &rows.positions);
-            store_words(&position, 3, (const float *)(const void *)&rows, base_of(&to, 0), 0,
+            store_words(&position, 3, (const float *)(const void *)&rows, base_of(&to, 0),
                         row_count);
             continue;
         }

@@ -64,10 +64,10 @@ static inline lanes inverse_root(lanes a) {
     return root;
 }
 
-/// Unit normals from the two tangents of rows [row, row + count), in place of the first. Along a shared edge the neighbour has
-/// both tangents negated, bit for bit, so that products, and all that follows, are the same but for
-/// the signs of zeros; adding +0 makes those alike. Where the cross product is too short or too
-/// long to be squared, the normal is (0, 0, 1).
+/// Unit normals from the two tangents of rows [row, row + count), in place of the first. Along a
+/// shared edge the neighbour has both tangents negated, bit for bit, so that products, and all that
+/// follows, are the same but for the signs of zeros; adding +0 makes those alike. Where the cross
+/// product is too short or too long to be squared, the normal is (0, 0, 1).
 static inline void find_normals(const vectors *across, size_t row, size_t count, vectors *along) {
     const lanes zero = lanes_zero(), one = lanes_splat(1.0f);
     const lanes least = lanes_splat(LEAST_SQUARE), most = lanes_splat(MOST_SQUARE);

@@ -4,7 +4,7 @@
  * its place as the level goes up. Rows on edges follow the level of the edge, so that both sides
  * agree; sums of two parents do not depend on their order.
  *
- * From level 2 on, a row on an edge comes from one parent, its elder, instead of the middle of both:
+ * From level 2 on, a row on an edge comes from one parent, its elder, not from the middle of both:
  * rows inside of a finer patch are sewn to it, and if it appeared in the middle, they would jump
  * there from the elder. The row of level 1 has no elder that both patches could agree on.
  */
@@ -52,7 +52,9 @@ static inline void move_row(vectors *rows, bool normals, const uint16_t sources[
     }
 }
 
-/// The rows of an edge that is coarser than its patch: those that are new at its level move.
+/// The rows of an edge that is coarser than its patch: those that are new at its level move. One by
+/// one: they are few, and as vectors they would wait for what was gathered for them (a tenth of a
+/// frame of mean level 2).
 static inline void morph_edge(const limn_row *of, const uint16_t *along, uint32_t edge_level,
                               float weight, bool normals, vectors *rows) {
     const uint32_t step = LIMN_GRID_SIZE >> edge_level;

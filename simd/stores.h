@@ -67,27 +67,29 @@ static inline void store_four(const part *p, const float *rows, unsigned char *b
     }
 }
 
-/// Rows [row, end), four at a time. Returns the first that is left.
-static inline size_t store_fours(const part *p, const float *rows, unsigned char *base, size_t row,
-                                 size_t end) {
+/// Four rows at a time. Returns the first that is left.
+static inline size_t store_fours(const part *p, const float *rows, unsigned char *base,
+                                 size_t row_count) {
+    size_t row = 0;
     if (p->word_count == 6 && p->size == p->stride) {
-        for (; row + 4 <= end; row += 4)
+        for (; row + 4 <= row_count; row += 4)
             store_four_dense(p, rows, base, row);
     } else if (p->word_count >= 4) {
-        for (; row + 4 <= end; row += 4)
+        for (; row + 4 <= row_count; row += 4)
             store_four(p, rows, base, row);
     }
     return row;
 }
 
-/// Rows [row, end) of vertices of one to three words behind one another, a vector of them at a
-/// time. A loop each: the words would be counted again for every row.
+/// Vertices of one to three words behind one another, a vector of them at a time. A loop each: the
+/// words would be counted again for every row.
 static LIMNI_INLINE void store_words(const part *p, size_t word_count, const float *rows,
-                                     unsigned char *base, size_t row, size_t end) {
+                                     unsigned char *base, size_t row_count) {
     const float *const x = rows + p->planes[0];
     const float *const y = rows + p->planes[1], *const z = rows + p->planes[2];
-    float *dst = (float *)(void *)base + row * word_count;
-    for (; row + LANES_WIDTH <= end; row += LANES_WIDTH, dst += word_count * LANES_WIDTH) {
+    float *dst = (float *)(void *)base;
+    size_t row = 0;
+    for (; row + LANES_WIDTH <= row_count; row += LANES_WIDTH, dst += word_count * LANES_WIDTH) {
         if (word_count == 3) {
             lanes_store_xyz(dst, lanes_load_any(x + row), lanes_load_any(y + row),
                             lanes_load_any(z + row));
@@ -97,40 +99,40 @@ static LIMNI_INLINE void store_words(const part *p, size_t word_count, const flo
             lanes_store(dst, lanes_load_any(x + row));
         }
     }
-    for (; row < end; row++, dst += word_count) {
+    for (; row < row_count; row++, dst += word_count) {
         dst[0] = x[row];
         if (word_count > 1) dst[1] = y[row];
         if (word_count > 2) dst[2] = z[row];
     }
 }
 
-static inline void store_dense(const part *p, const float *rows, unsigned char *base, size_t row,
-                               size_t end) {
+static inline void store_dense(const part *p, const float *rows, unsigned char *base,
+                               size_t row_count) {
     switch (p->word_count) {
     case 1:
-        store_words(p, 1, rows, base, row, end);
+        store_words(p, 1, rows, base, row_count);
         break;
     case 2:
-        store_words(p, 2, rows, base, row, end);
+        store_words(p, 2, rows, base, row_count);
         break;
     default:
-        store_words(p, 3, rows, base, row, end);
+        store_words(p, 3, rows, base, row_count);
         break;
     }
 }
 
-/// Rows [row, end) of a patch.
+/// All rows of a patch.
 ///
 /// rows  its scratch
 /// base  where its first row goes
-static inline void store_rows(const part *p, const float *rows, unsigned char *base, size_t row,
-                              size_t end) {
+static inline void store_rows(const part *p, const float *rows, unsigned char *base,
+                              size_t row_count) {
     const bool few = p->word_count <= 3 && p->size == 4 * p->word_count && p->size == p->stride;
     if (few) {
-        store_dense(p, rows, base, row, end);
+        store_dense(p, rows, base, row_count);
         return;
     }
-    for (row = store_fours(p, rows, base, row, end); row < end; row++)
+    for (size_t row = store_fours(p, rows, base, row_count); row < row_count; row++)
         store_vertex(p, rows, base, row);
 }
 
@@ -172,16 +174,16 @@ static inline void arrange_parts(const part *a, const part *b, parts *p) {
     if (join(&p->items[0], &p->items[1])) p->count = 1;
 }
 
-static inline void store_parts(const parts *p, const float *rows, size_t row, size_t end) {
+static inline void store_parts(const parts *p, const float *rows, size_t row_count) {
     if (p->count == 2 && p->apart) {
-        for (; row < end; row++) {
+        for (size_t row = 0; row < row_count; row++) {
             store_vertex(&p->items[0], rows, base_of(p, 0), row);
             store_vertex(&p->items[1], rows, base_of(p, 1), row);
         }
         return;
     }
     for (int i = 0; i < p->count; i++)
-        store_rows(&p->items[i], rows, base_of(p, i), row, end);
+        store_rows(&p->items[i], rows, base_of(p, i), row_count);
 }
 
 /// All rows past the caches, by way of L1. There is no such way where the caller has bytes of his
@@ -189,16 +191,16 @@ static inline void store_parts(const parts *p, const float *rows, size_t row, si
 static inline void stream_parts(const parts *p, const float *rows, size_t row_count) {
     _Alignas(64) unsigned char staging[LIMNI_ROW_MAX * VERTEX_MAX];
     if (p->count == 2 && p->apart) {
-        store_parts(p, rows, 0, row_count);
+        store_parts(p, rows, row_count);
         return;
     }
     for (int i = 0; i < p->count; i++) {
         const part *const item = &p->items[i];
         if (item->size != item->stride || item->size % 4 != 0) {
-            store_rows(item, rows, base_of(p, i), 0, row_count);
+            store_rows(item, rows, base_of(p, i), row_count);
             continue;
         }
-        store_rows(item, rows, staging, 0, row_count);
+        store_rows(item, rows, staging, row_count);
         lanes_stream(base_of(p, i), staging, row_count * item->size);
     }
 }

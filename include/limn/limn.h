@@ -395,9 +395,9 @@ size_t limn_plan_size(const limn_mesh *mesh);
 /// Plans a frame: levels for all edges, and of the patches that may be seen in any view, their
 /// templates, weights and places. A patch is left out where all its control points are outside of
 /// one plane of every view: the surface lies within their convex hull, so this is exact under
-/// animation too. The result is the same for whichever thread, and depends on nothing else. Does
-/// not allocate; any thread, with memory of its own. A frame of more than INT32_MAX vertices has no
-/// plan: 0 patches.
+/// animation too. (Where creases are Chaikin's, it may leave the hull by a fraction of an edge.)
+/// The result is the same for whichever thread, and depends on nothing else. Does not allocate; any
+/// thread, with memory of its own. A frame of more than INT32_MAX vertices has no plan: 0 patches.
 ///
 /// controls   [mesh->control_count][3] floats, model units: those that will be evaluated
 /// views      [view_count] 1 to LIMN_VIEW_MAX, in the space of the control points
@@ -438,8 +438,8 @@ typedef struct limn_output {
     uint32_t stride; ///< bytes from position to position, a multiple of 4; 0 means tightly packed
     limn_position_format position_format;
     const float *box; ///< [2][3], min and max, for packed positions; NULL: the mesh's bounds in the
-                      ///< bind pose. The surface never leaves the box of its control points.
-                      ///< On an axis without extent all is 0
+                      ///< bind pose. The surface never leaves the box of its control points
+                      ///< (Chaikin's creases may). On an axis without extent all is 0
     void *normals; ///< normal of vertex 0 of the plan, aligned to 4 bytes, or to 2 if it has 2: in
                    ///< a stream of its own, or inside the vertices, with the same stride; NULL: no
                    ///< normals
