@@ -56,25 +56,14 @@ void drawn_frame_destroy(drawn_frame *frame) {
 /// Grid coordinates of a vertex.
 typedef double place[2];
 
-/// Grid steps along an edge: the parent of the lower level; of two corners, the start.
-static uint32_t elder_place(uint32_t t) {
-    const uint32_t step = t & (0u - t);
-    return (t - step) % (4 * step) == 0 ? t - step : t + step;
-}
-
-/// Where a row that is new on its edge comes from: the middle of these two places.
-static void find_source(uint32_t level, uint32_t t, uint32_t source[2]) {
-    source[0] = elder_place(t);
-    source[1] = level > 1 ? source[0] : 2 * t - source[0];
-}
-
 /// The row with which row `t` of an edge is drawn: itself, or where the edge skips it, the nearest
-/// of its elders.
+/// of its elders; of the row of level 1, which has none, the start of the edge.
 static uint32_t kept_row(const limn_domain *domain, uint32_t edge, uint32_t edge_level,
                          uint32_t t) {
-    while (t % (LIMN_GRID_SIZE >> edge_level))
-        t = elder_place(t);
-    return domain->edge_rows[edge][t];
+    uint32_t row = domain->edge_rows[edge][t];
+    while (domain->rows[row].level > edge_level)
+        row = domain->rows[row].level > 1 ? domain->rows[row].sources[0] : edge;
+    return row;
 }
 
 static void place_edge(const limn_domain *domain, const limn_plan_patch *item, uint32_t edge,
@@ -82,11 +71,9 @@ static void place_edge(const limn_domain *domain, const limn_plan_patch *item, u
     const uint16_t *const along = domain->edge_rows[edge];
     const uint32_t level = item->edge_levels[edge], step = LIMN_GRID_SIZE >> level;
     for (uint32_t t = step; t < LIMN_GRID_SIZE && level > 0; t += 2 * step) {
-        uint32_t source[2];
-        find_source(level, t, source);
+        const uint16_t *const sources = domain->rows[along[t]].sources;
         for (int axis = 0; axis < 2; axis++) {
-            const double from =
-                (places[along[source[0]]][axis] + places[along[source[1]]][axis]) / 2;
+            const double from = (places[sources[0]][axis] + places[sources[1]][axis]) / 2;
             places[along[t]][axis] =
                 from + (double)item->edge_morphs[edge] * (places[along[t]][axis] - from);
         }
@@ -164,6 +151,11 @@ void drawn_frame_make(drawn_frame *frame, const limn_view *view, const limn_lod_
     frame->view = *view;
     frame->view.plane_count = 0;
     frame->plan = limn_plan_build(mesh, mesh->controls, &frame->view, 1, desc, NULL, frame->memory);
+    drawn_frame_draw(frame);
+}
+
+void drawn_frame_draw(drawn_frame *frame) {
+    const limn_mesh *const mesh = &frame->of->mesh;
     limn_evaluate(&frame->plan, mesh->controls, 0, frame->plan.patch_count,
                   &(limn_output){.vertices = frame->vertices});
     for (uint32_t patch = 0; patch < frame->plan.patch_count; patch++)
@@ -228,9 +220,8 @@ static void reach_edge(const drawn_frame *frame, uint32_t patch, uint32_t edge, 
     const uint32_t level = frame->plan.patches[patch].edge_levels[edge];
     const uint32_t step = LIMN_GRID_SIZE >> level;
     for (uint32_t t = step; t < LIMN_GRID_SIZE && level > 0; t += 2 * step) {
-        uint32_t source[2];
-        find_source(level, t, source);
-        reach[along[t]] = find_reach(frame, patch, along[t], along[source[0]], along[source[1]]);
+        const uint16_t *const sources = domain->rows[along[t]].sources;
+        reach[along[t]] = find_reach(frame, patch, along[t], sources[0], sources[1]);
     }
     for (uint32_t t = 1; t < LIMN_GRID_SIZE; t++) {
         const uint32_t kept = kept_row(domain, edge, level, t);
@@ -256,30 +247,48 @@ static double reach_patch(const drawn_frame *frame, uint32_t patch) {
     return largest;
 }
 
+/// The largest step of the levels of a patch's edges.
+static double find_step(const limn_plan_patch *before, const limn_plan_patch *after,
+                        uint32_t edge_count) {
+    double step = 0;
+    for (uint32_t e = 0; e < edge_count; e++)
+        step = fmax(step, fabs(edge_level(after, e) - edge_level(before, e)));
+    return step;
+}
+
+/// Half the length of the longest edge that comes to level 0 or from there beside a finer one.
+static double find_seam(const drawn_frame *before, const drawn_frame *after, uint32_t patch) {
+    const uint32_t edge_count = after->of->mesh.domain->corner_count;
+    const limn_plan_patch *const old = &before->plan.patches[patch];
+    const limn_plan_patch *const new = &after->plan.patches[patch];
+    double longest = 0;
+    for (uint32_t e = 0; e < edge_count && old->level > 0 && new->level > 0; e++) {
+        if ((old->edge_levels[e] == 0) == (new->edge_levels[e] == 0)) continue;
+        longest =
+            fmax(longest, find_reach(after, patch, e, (e + 1) % edge_count, (e + 1) % edge_count));
+    }
+    return longest / 2;
+}
+
 drawn_motion drawn_move(const drawn_frame *before, const drawn_frame *after) {
-    const uint32_t edges = after->of->mesh.domain->corner_count;
+    const uint32_t edge_count = after->of->mesh.domain->corner_count;
     drawn_motion motion = {0};
     for (uint32_t patch = 0; patch < after->plan.patch_count; patch++) {
-        const limn_plan_patch *const old = &before->plan.patches[patch];
-        const limn_plan_patch *const new = &after->plan.patches[patch];
-        double step = 0;
-        bool seam = false;
-        for (uint32_t e = 0; e < edges; e++) {
-            step = fmax(step, fabs(edge_level(new, e) - edge_level(old, e)));
-            seam |= (old->edge_levels[e] == 0) != (new->edge_levels[e] == 0) &&
-                    (old->level > 0 && new->level > 0);
-        }
         const double scale = scale_patch(after, patch);
         const double pixels = scale * move_patch(before, after, patch);
-        if (seam) {
-            motion.seam_pixels = fmax(motion.seam_pixels, pixels);
-            continue;
-        }
+        const double step =
+            find_step(&before->plan.patches[patch], &after->plan.patches[patch], edge_count);
         const double bound =
             scale * step * fmax(reach_patch(before, patch), reach_patch(after, patch));
+        const double seam = scale * find_seam(before, after, patch);
+        if (seam > 0) {
+            motion.seam_pixels = fmax(motion.seam_pixels, pixels);
+            motion.seam_share = fmax(motion.seam_share, pixels / (seam + bound));
+            continue;
+        }
         motion.pixels = fmax(motion.pixels, pixels);
         motion.bound = fmax(motion.bound, bound);
-        if (pixels > 1e-2) motion.share = fmax(motion.share, pixels / bound); // above rounding
+        if (pixels > DRAWN_ROUNDING) motion.share = fmax(motion.share, pixels / bound);
     }
     return motion;
 }

@@ -41,6 +41,12 @@ void drawn_frame_destroy(drawn_frame *frame);
 
 void drawn_frame_make(drawn_frame *frame, const limn_view *view, const limn_lod_desc *desc);
 
+/// Draws the plan of a frame once more, after its patches, which are in `memory`, were changed.
+void drawn_frame_draw(drawn_frame *frame);
+
+/// Pixels: movements that are smaller may come from rounding, and have no share.
+#define DRAWN_ROUNDING 1e-2
+
 /// How far the points of the surface move, in pixels of the second frame, whichever way they go;
 /// those of a patch as if all were at its nearest point.
 typedef struct drawn_motion {
@@ -48,6 +54,7 @@ typedef struct drawn_motion {
     double bound;       ///< the largest that they may then move, see drawn_move()
     double share;       ///< the largest share of its bound that a patch makes use of
     double seam_pixels; ///< of patches of which an edge comes to level 0, or from there
+    double seam_share;  ///< the same, as a share of half that edge and the bound
 } drawn_motion;
 
 /// From one frame to another of the same mesh. The bound of a patch is the largest step of its
