@@ -4,10 +4,12 @@
  * as near to the limit surface as was asked for, and not much nearer than that. The limit is
  * sampled twice as densely as the finest level has rows, through the once subdivided control mesh,
  * and each sample compared with the nearest triangle drawn of its patch and of the neighbours.
+ * Meshes where something is sharp for some levels only are left out: the control mesh is subdivided
+ * here, and only with what is sharp for ever.
  */
+#include "../baker/mesh.h"
 #include "../runtime/edge_error.h"
 #include "check.h"
-#include "limn/bake.h"
 #include "mesh_files.h"
 
 #include <math.h>
@@ -30,22 +32,14 @@ static float random_float(float low, float high) {
     return low + (high - low) * (float)(random_state >> 33) / 2147483648.0f;
 }
 
-// ---- Edges
-
-/// An edge of the base mesh.
-typedef struct edge {
-    uint32_t ends[2]; ///< ascending; equal: a free place of the table
-    uint32_t faces[2], count;
-    uint32_t opposite[2];
-} edge;
+// ---- A mesh and what is drawn of it
 
 typedef struct subject {
+    limni_context context;
+    limni_mesh base; ///< with its tags
     limn_baker *baker, *fine_baker;
     limn_mesh mesh, fine;
-    uint32_t (*faces)[3];
-    uint32_t *patch_of_face;
-    edge *edges; ///< a hash table
-    uint32_t edge_room;
+    uint32_t *patch_of_face;            ///< LIMNI_NONE: a hole
     float (*limits)[CHILDREN][ROWS][3]; ///< [face]
     void *memory;
     float (*vertices)[3];
@@ -54,167 +48,222 @@ typedef struct subject {
     float diagonal;
 } subject;
 
-static edge *find_edge(const subject *s, uint32_t a, uint32_t b) {
-    const uint32_t low = a < b ? a : b, high = a < b ? b : a;
-    uint32_t at = (low * 2654435761u ^ high * 2246822519u) % s->edge_room;
-    while (s->edges[at].count && (s->edges[at].ends[0] != low || s->edges[at].ends[1] != high))
-        at = (at + 1) % s->edge_room;
-    s->edges[at].ends[0] = low;
-    s->edges[at].ends[1] = high;
-    return &s->edges[at];
+/// The half-edge that stands for its edge.
+static uint32_t edge_of(const limni_mesh *base, uint32_t h) {
+    return base->pairs[h] < h ? base->pairs[h] : h;
 }
 
-/// Returns whether no edge has more than two faces.
-static bool find_edges(subject *s) {
-    bool manifold = true;
-    s->edge_room = 6 * s->mesh.patch_count;
-    s->edges = calloc(s->edge_room, sizeof *s->edges);
-    for (uint32_t f = 0; f < s->mesh.patch_count; f++) {
-        for (uint32_t c = 0; c < 3; c++) {
-            edge *const e = find_edge(s, s->faces[f][c], s->faces[f][(c + 1) % 3]);
-            manifold = manifold && e->count < 2;
-            if (!manifold) return false;
-            e->faces[e->count] = f;
-            e->opposite[e->count++] = s->faces[f][(c + 2) % 3];
-        }
-    }
-    return manifold;
+/// The patch beyond half-edge h, or LIMNI_NONE.
+static uint32_t patch_beyond(const subject *s, uint32_t h) {
+    const uint32_t pair = s->base.pairs[h];
+    return pair == LIMNI_NONE ? LIMNI_NONE : s->patch_of_face[pair / 3];
 }
 
-static void find_faces(subject *s) {
-    s->faces = malloc(s->mesh.patch_count * sizeof *s->faces);
-    s->patch_of_face = malloc(s->mesh.patch_count * sizeof *s->patch_of_face);
-    for (uint32_t p = 0; p < s->mesh.patch_count; p++) {
-        const limn_patch_face face = limn_mesh_face(&s->mesh, p);
-        uint32_t corners[LIMN_CORNER_MAX];
-        limn_mesh_corners(&s->mesh, p, corners);
-        s->patch_of_face[face.face] = p;
-        for (uint32_t c = 0; c < 3; c++)
-            s->faces[face.face][(c + face.rotation) % 3] = corners[c];
-    }
+static void find_patches(subject *s) {
+    const size_t size = s->base.face_count * sizeof *s->patch_of_face;
+    s->patch_of_face = malloc(size);
+    memset(s->patch_of_face, 0xff, size);
+    for (uint32_t p = 0; p < s->mesh.patch_count; p++)
+        s->patch_of_face[limn_mesh_face(&s->mesh, p).face] = p;
 }
 
 // ---- The same surface from a finer control mesh
+
+static bool is_sharp_edge(const limni_mesh *base, uint32_t h) {
+    return base->pairs[h] == LIMNI_NONE || base->edge_sharpness[h] >= LIMNI_SHARP_FOR_EVER;
+}
+
+static bool is_sharp_vertex(const limni_mesh *base, uint32_t control) {
+    return base->vertex_sharpness[control] >= LIMNI_SHARP_FOR_EVER;
+}
+
+/// Whether anything is sharp for some levels only, which the rules below do not know.
+static bool has_semi_sharpness(const limni_mesh *base) {
+    bool any = false;
+    for (uint32_t h = 0; h < 3 * base->face_count; h++)
+        any |= base->edge_sharpness[h] > 0 && !is_sharp_edge(base, h);
+    for (uint32_t c = 0; c < base->control_count; c++)
+        any |= base->vertex_sharpness[c] > 0 && !is_sharp_vertex(base, c);
+    return any;
+}
 
 static void add(float *sum, float weight, const float *point) {
     for (int axis = 0; axis < 3; axis++)
         sum[axis] += weight * point[axis];
 }
 
-/// Loop's masks for the vertices: their neighbours, or on a boundary those along it.
-static void move_vertices(const subject *s, float (*points)[3]) {
-    const float(*const controls)[3] = (const float(*)[3])s->mesh.controls;
-    uint32_t *const counts = calloc(s->mesh.control_count, sizeof *counts);
-    uint32_t *const open = calloc(s->mesh.control_count, sizeof *open);
-    for (uint32_t e = 0; e < s->edge_room; e++) {
-        for (int end = 0; end < 2 && s->edges[e].count; end++) {
-            counts[s->edges[e].ends[end]]++;
-            open[s->edges[e].ends[end]] += s->edges[e].count == 1;
-        }
-    }
-    for (uint32_t c = 0; c < s->mesh.control_count; c++) {
-        const float cosine = 3 + 2 * cosf(6.2831853f / (float)counts[c]);
-        const float around = (40 - cosine * cosine) / 64;
-        memset(points[c], 0, sizeof points[c]);
-        add(points[c], counts[c] == 0 ? 1 : open[c] ? 0.75f : 1 - around, controls[c]);
-    }
-    for (uint32_t e = 0; e < s->edge_room; e++) {
-        for (int end = 0; end < 2 && s->edges[e].count; end++) {
-            const uint32_t c = s->edges[e].ends[end], other = s->edges[e].ends[1 - end];
-            const float cosine = 3 + 2 * cosf(6.2831853f / (float)counts[c]);
-            const float weight = (40 - cosine * cosine) / 64 / (float)counts[c];
-            if (!open[c]) add(points[c], weight, controls[other]);
-            if (open[c] && s->edges[e].count == 1) add(points[c], 0.125f, controls[other]);
-        }
-    }
-    free(counts);
-    free(open);
+/// The edges at a control point.
+typedef struct edges_around {
+    uint32_t count, sharp_count;
+} edges_around;
+
+/// What a control point takes of the one at the other end of an edge.
+static float weight_across(edges_around around, bool sharp_vertex, bool sharp_edge) {
+    if (sharp_vertex || around.sharp_count > 2) return 0;
+    if (around.sharp_count == 2) return sharp_edge ? 0.125f : 0;
+    const float cosine = 3 + 2 * cosf(6.2831853f / (float)around.count);
+    return (40 - cosine * cosine) / 64 / (float)around.count;
 }
 
-static void place_middle(const subject *s, const edge *e, float *point) {
-    const float(*const controls)[3] = (const float(*)[3])s->mesh.controls;
-    const float near = e->count == 1 ? 0.5f : 0.375f;
-    memset(point, 0, sizeof(float[3]));
+/// Adds what the end of half-edge h has of its start.
+static void pull(const limni_mesh *base, uint32_t h, const edges_around *around,
+                 float (*points)[3]) {
+    const uint32_t start = limni_half_edge_start(base, h), end = limni_half_edge_end(base, h);
     for (int k = 0; k < 2; k++) {
-        add(point, near, controls[e->ends[k]]);
-        if (e->count == 2) add(point, 0.125f, controls[e->opposite[k]]);
+        const uint32_t here = k ? start : end, there = k ? end : start;
+        const float weight =
+            weight_across(around[here], is_sharp_vertex(base, here), is_sharp_edge(base, h));
+        add(points[here], weight, base->controls[there]);
+        add(points[here], -weight, base->controls[here]);
+    }
+}
+
+/// Loop's masks for the vertices: their neighbours, or on a crease those along it.
+static void move_vertices(const limni_mesh *base, float (*points)[3]) {
+    edges_around *const around = calloc(base->control_count, sizeof *around);
+    for (uint32_t h = 0; h < 3 * base->face_count; h++) {
+        const uint32_t ends[2] = {limni_half_edge_start(base, h), limni_half_edge_end(base, h)};
+        for (int k = 0; k < 2 && edge_of(base, h) == h; k++) {
+            around[ends[k]].count++;
+            around[ends[k]].sharp_count += is_sharp_edge(base, h);
+        }
+    }
+    memcpy(points, base->controls, base->control_count * sizeof *points);
+    for (uint32_t h = 0; h < 3 * base->face_count; h++) {
+        if (edge_of(base, h) == h) pull(base, h, around, points);
+    }
+    free(around);
+}
+
+static void place_middle(const limni_mesh *base, uint32_t h, float *point) {
+    const bool sharp = is_sharp_edge(base, h);
+    const uint32_t sides[2] = {h, base->pairs[h]};
+    add(point, sharp ? 0.5f : 0.375f, base->controls[limni_half_edge_start(base, h)]);
+    add(point, sharp ? 0.5f : 0.375f, base->controls[limni_half_edge_end(base, h)]);
+    for (int k = 0; k < 2 && !sharp; k++) {
+        const uint32_t opposite = limni_half_edge_previous(sides[k]);
+        add(point, 0.125f, base->controls[limni_half_edge_start(base, opposite)]);
     }
 }
 
 /// The children of a face: at its corners, and in its middle.
-static void split_face(const subject *s, uint32_t face, uint32_t children[CHILDREN][3]) {
-    const uint32_t *const v = s->faces[face];
+static void split_face(const limni_mesh *base, uint32_t face, uint32_t children[CHILDREN][3]) {
     uint32_t middles[3];
     for (uint32_t c = 0; c < 3; c++)
-        middles[c] =
-            s->mesh.control_count + (uint32_t)(find_edge(s, v[c], v[(c + 1) % 3]) - s->edges);
+        middles[c] = base->control_count + edge_of(base, 3 * face + c);
     for (uint32_t c = 0; c < 3; c++) {
-        children[c][c] = v[c];
+        children[c][c] = base->faces[face][c];
         children[c][(c + 1) % 3] = middles[c];
         children[c][(c + 2) % 3] = middles[(c + 2) % 3];
         children[3][c] = middles[(c + 1) % 3];
     }
 }
 
-static limn_bake_status bake_fine(subject *s) {
-    const uint32_t count = s->mesh.control_count + s->edge_room;
-    float(*const points)[3] = calloc(count, sizeof *points);
-    uint32_t(*const faces)[CHILDREN][3] = malloc(s->mesh.patch_count * sizeof *faces);
-    move_vertices(s, points);
-    for (uint32_t e = 0; e < s->edge_room; e++) {
-        if (s->edges[e].count) place_middle(s, &s->edges[e], points[s->mesh.control_count + e]);
+/// A mesh of one more level, with room for the most that there may be of each.
+typedef struct finer {
+    float (*points)[3];
+    uint32_t (*faces)[CHILDREN][3];
+    uint32_t (*creases)[2], *corners, *holes;
+    float *sharpness; ///< of all of them
+    uint32_t crease_count, corner_count, hole_count;
+} finer;
+
+static finer subdivide(const limni_mesh *base) {
+    const size_t edge_room = 3 * (size_t)base->face_count;
+    finer made = {.points = calloc(base->control_count + edge_room, sizeof *made.points),
+                  .faces = malloc(base->face_count * sizeof *made.faces),
+                  .creases = malloc(2 * edge_room * sizeof *made.creases),
+                  .corners = malloc(base->control_count * sizeof *made.corners),
+                  .holes = malloc(CHILDREN * base->face_count * sizeof *made.holes),
+                  .sharpness = malloc((base->control_count + 2 * edge_room) * sizeof(float))};
+    move_vertices(base, made.points);
+    for (uint32_t h = 0; h < edge_room; h++) {
+        const uint32_t middle = base->control_count + h;
+        if (edge_of(base, h) != h) continue;
+        place_middle(base, h, made.points[middle]);
+        for (int k = 0; k < 2 && is_sharp_edge(base, h); k++) {
+            made.creases[made.crease_count][0] =
+                k ? limni_half_edge_end(base, h) : limni_half_edge_start(base, h);
+            made.creases[made.crease_count++][1] = middle;
+        }
     }
-    for (uint32_t f = 0; f < s->mesh.patch_count; f++)
-        split_face(s, f, faces[f]);
+    for (uint32_t c = 0; c < base->control_count; c++) {
+        if (is_sharp_vertex(base, c)) made.corners[made.corner_count++] = c;
+    }
+    for (uint32_t f = 0; f < base->face_count; f++) {
+        split_face(base, f, made.faces[f]);
+        for (uint32_t k = 0; k < CHILDREN && base->holes[f]; k++)
+            made.holes[made.hole_count++] = CHILDREN * f + k;
+    }
+    for (size_t k = 0; k < base->control_count + 2 * edge_room; k++)
+        made.sharpness[k] = INFINITY;
+    return made;
+}
+
+static limn_bake_status bake_fine(subject *s) {
+    const finer made = subdivide(&s->base);
     s->fine_baker = limn_baker_create(NULL);
-    const limn_bake_status status =
-        limn_baker_add_mesh(s->fine_baker, &(limn_bake_mesh){.positions = points[0],
-                                                             .position_count = count,
-                                                             .face_count = 4 * s->mesh.patch_count,
-                                                             .face_indices = faces[0][0]});
-    free(points);
-    free(faces);
+    const limn_bake_mesh mesh = {.positions = made.points[0],
+                                 .position_count = s->base.control_count + 3 * s->base.face_count,
+                                 .face_count = CHILDREN * s->base.face_count,
+                                 .face_indices = made.faces[0][0],
+                                 .crease_edges = made.creases[0],
+                                 .crease_sharpness = made.sharpness,
+                                 .crease_count = made.crease_count,
+                                 .sharp_vertices = made.corners,
+                                 .vertex_sharpness = made.sharpness,
+                                 .sharp_vertex_count = made.corner_count,
+                                 .holes = made.holes,
+                                 .hole_count = made.hole_count};
+    const limn_bake_status status = limn_baker_add_mesh(s->fine_baker, &mesh);
+    free(made.points);
+    free(made.faces);
+    free(made.creases);
+    free(made.corners);
+    free(made.holes);
+    free(made.sharpness);
     return status;
 }
 
 static void sample_limit(subject *s) {
     const limn_plan plan = limn_plan_uniform(&s->fine, LIMN_LEVEL_MAX);
     float(*const points)[ROWS][3] = malloc((size_t)plan.patch_count * sizeof *points);
-    s->limits = malloc((size_t)s->mesh.patch_count * sizeof *s->limits);
+    s->limits = malloc((size_t)s->base.face_count * sizeof *s->limits);
     limn_evaluate(&plan, s->fine.controls, 0, plan.patch_count, &(limn_output){.vertices = points});
     for (uint32_t p = 0; p < plan.patch_count; p++) {
         const uint32_t face = limn_mesh_face(&s->fine, p).face;
-        memcpy(s->limits[face / 4][face % 4], points[p], sizeof points[p]);
+        memcpy(s->limits[face / CHILDREN][face % CHILDREN], points[p], sizeof points[p]);
     }
     free(points);
 }
 
 // ---- Subjects
 
-/// tagged  out: whether creases or corners shape the surface; or NULL
-static bool open_baked(limn_baker *baker, limn_mesh *mesh, bool *tagged) {
+static bool open_baked(limn_baker *baker, limn_mesh *mesh) {
     const void *blob;
     size_t size;
     limn_pack pack;
     if (limn_baker_finish(baker, &blob, &size) != LIMN_BAKE_OK) return false;
     CHECK_EQUAL(limn_pack_open(&pack, blob, size), LIMN_OK);
     *mesh = limn_pack_mesh(&pack, 0);
-    if (tagged) *tagged = strstr(pack.info, "creases=") != NULL;
     return true;
 }
 
 static bool load(subject *s, const char *path) {
     const limn_bake_desc desc = {.repair = LIMN_REPAIR_ALL, .boundary = LIMN_BOUNDARY_EDGE_ONLY};
-    *s = (subject){.baker = limn_baker_create(&desc)};
+    *s = (subject){.context = {.desc = desc}, .baker = limn_baker_create(&desc)};
+    limni_source source = {0};
+    if (limni_read_file(&s->context, path, &source) != LIMN_BAKE_OK ||
+        limni_mesh_build(&s->context, &source, &s->base) != LIMN_BAKE_OK)
+        return false;
+    if (s->base.face_count > FACES_MAX || has_semi_sharpness(&s->base)) return false;
     if (limn_baker_add_file(s->baker, path) != LIMN_BAKE_OK) return false;
-    bool tagged;
-    if (!open_baked(s->baker, &s->mesh, &tagged) || s->mesh.patch_count > FACES_MAX) return false;
-    // The mesh is subdivided once more here, by the smooth rules, from what the file holds.
-    if (tagged || s->mesh.patch_count < s->mesh.face_count) return false;
-    find_faces(s);
-    // A vertex of valence 2 gives two edges with the same ends.
-    if (!find_edges(s) || bake_fine(s) != LIMN_BAKE_OK) return false;
-    if (!open_baked(s->fine_baker, &s->fine, NULL)) return false;
+    if (!open_baked(s->baker, &s->mesh)) return false;
+    find_patches(s);
+    // Around vertices of valence 2 two edges may have the same ends, and their halves then cannot be
+    // told apart.
+    if (bake_fine(s) != LIMN_BAKE_OK) return false;
+    if (!open_baked(s->fine_baker, &s->fine)) return false;
     sample_limit(s);
     s->memory = malloc(limn_plan_size(&s->mesh));
     s->vertices = malloc((size_t)s->mesh.patch_count * ROWS * sizeof *s->vertices);
@@ -225,55 +274,50 @@ static bool load(subject *s, const char *path) {
 }
 
 static void unload(subject *s) {
-    free(s->faces);
     free(s->patch_of_face);
-    free(s->edges);
     free(s->limits);
     free(s->memory);
     free(s->vertices);
     free(s->item_of_patch);
     limn_baker_destroy(s->baker);
     limn_baker_destroy(s->fine_baker);
+    limni_release_all(&s->context);
 }
 
-/// Both samplings of the limit surface agree where they meet: in the corners.
+static float distance(const float *a, const float *b) {
+    return hypotf(hypotf(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+}
+
+/// Both samplings of the limit surface agree where they meet: in the corners of the children.
 static void check_limits(subject *s) {
-    const limn_plan plan = limn_plan_uniform(&s->mesh, 0);
+    const limn_plan plan = limn_plan_uniform(&s->mesh, 1);
+    const uint32_t count = domain->row_counts[1];
     limn_evaluate(&plan, s->mesh.controls, 0, plan.patch_count,
                   &(limn_output){.vertices = s->vertices});
     float largest = 0;
-    for (uint32_t p = 0; p < plan.patch_count; p++) {
-        const limn_patch_face face = limn_mesh_face(&s->mesh, p);
-        for (uint32_t c = 0; c < 3; c++) {
-            const uint32_t corner = (c + face.rotation) % 3;
-            const float *const seen = s->vertices[3 * p + c];
-            float nearest = INFINITY; // one of the child's corners, whatever its rotation
-            for (uint32_t row = 0; row < 3; row++) {
-                const float *const limit = s->limits[face.face][corner][row];
-                nearest = fminf(nearest, hypotf(hypotf(seen[0] - limit[0], seen[1] - limit[1]),
-                                                seen[2] - limit[2]));
-            }
-            largest = fmaxf(largest, nearest);
-        }
+    for (uint32_t v = 0; v < plan.vertex_count; v++) {
+        const uint32_t face = limn_mesh_face(&s->mesh, v / count).face;
+        float nearest = INFINITY; // whatever the rotations are
+        for (uint32_t k = 0; k < CHILDREN * 3; k++)
+            nearest = fminf(nearest, distance(s->vertices[v], s->limits[face][k / 3][k % 3]));
+        largest = fmaxf(largest, nearest);
     }
     CHECK(largest < 2e-6f * s->diagonal);
+}
+
+/// The number of the edge of half-edge h, as its own patch has it.
+static uint16_t error_at(const subject *s, uint32_t h) {
+    const uint32_t patch = s->patch_of_face[h / 3];
+    const uint32_t rotation = limn_mesh_face(&s->mesh, patch).rotation;
+    return s->mesh.errors[3 * patch + (h % 3 + 3 - rotation) % 3];
 }
 
 /// Both patches at an edge have the same number.
 static void check_sides(const subject *s) {
     bool same = true;
-    for (uint32_t e = 0; e < s->edge_room; e++) {
-        uint16_t errors[2];
-        for (uint32_t k = 0; k < s->edges[e].count; k++) {
-            const uint32_t patch = s->patch_of_face[s->edges[e].faces[k]];
-            const uint32_t rotation = limn_mesh_face(&s->mesh, patch).rotation;
-            const uint32_t *const corners = s->faces[s->edges[e].faces[k]];
-            for (uint32_t c = 0; c < 3; c++) {
-                if (find_edge(s, corners[c], corners[(c + 1) % 3]) == &s->edges[e])
-                    errors[k] = s->mesh.errors[3 * patch + (c + 3 - rotation) % 3];
-            }
-        }
-        same = same && (s->edges[e].count < 2 || errors[0] == errors[1]);
+    for (uint32_t h = 0; h < 3 * s->base.face_count; h++) {
+        if (s->patch_of_face[h / 3] == LIMNI_NONE || patch_beyond(s, h) == LIMNI_NONE) continue;
+        same = same && error_at(s, h) == error_at(s, s->base.pairs[h]);
     }
     CHECK(same);
 }
@@ -336,7 +380,7 @@ static void test_degenerate(void) {
                                       .face_count = flat ? 1 : 2,
                                       .face_indices = faces};
         CHECK_EQUAL(limn_baker_add_mesh(baker, &given), LIMN_BAKE_OK);
-        if (CHECK(open_baked(baker, &mesh, NULL))) {
+        if (CHECK(open_baked(baker, &mesh))) {
             const limn_patch_face face = limn_mesh_face(&mesh, 0);
             const uint32_t without_length = (1 + 3 - face.rotation) % 3;
             CHECK_EQUAL(mesh.errors[without_length] & LIMNI_ERROR_FIRST_MAX,
@@ -439,9 +483,8 @@ static double measure_patch(const subject *s, const limn_view *view, uint32_t pa
         double nearest = INFINITY;
         look_at_patch(s, patch, point, enough, &nearest);
         for (uint32_t c = 0; c < 3 && nearest > enough; c++) {
-            const edge *const e = find_edge(s, s->faces[face][c], s->faces[face][(c + 1) % 3]);
-            const uint32_t other = e->faces[e->count == 2 && e->faces[0] == face];
-            look_at_patch(s, s->patch_of_face[other], point, enough, &nearest);
+            const uint32_t other = patch_beyond(s, 3 * face + c);
+            if (other != LIMNI_NONE) look_at_patch(s, other, point, enough, &nearest);
         }
         worst = fmax(worst, sqrt(nearest) * pixels);
     }
