@@ -417,19 +417,20 @@ static void check_culling(subject *s, const limn_view *views, uint32_t view_coun
     free(kept);
 }
 
-/// By error, a budget is a larger tolerance: no fewer vertices, but for a few, than the least
-/// tolerance in steps of a twentieth that keeps to it. Overwrites the plan.
-static void check_tolerance(subject *s, const limn_view *view, limn_lod_desc desc,
-                            uint64_t budgeted) {
+/// A budget lowers all levels by as little as it must: no further than one step below the least
+/// bias, in steps, that keeps to it. Overwrites the plan.
+static void check_lowering(subject *s, const limn_view *view, limn_lod_desc desc,
+                           uint64_t budgeted) {
+    static const float step = 1.0f / 16;
     const uint64_t budget = desc.vertex_budget;
-    uint64_t count;
+    uint64_t count = UINT64_MAX;
     desc.vertex_budget = 0;
-    do {
-        desc.pixels *= 1.05f;
+    for (bool kept = false; !kept; desc.bias -= step) {
+        kept = count <= budget;
         count = limn_plan_build(&s->mesh, s->mesh.controls, view, 1, &desc, templates, s->memory)
                     .vertex_count;
-    } while (count > budget);
-    CHECK(budgeted >= count / 10 * 9);
+    }
+    CHECK(budgeted >= count);
 }
 
 static void check_budget(subject *s, const limn_view *view, limn_lod lod) {
@@ -442,7 +443,7 @@ static void check_budget(subject *s, const limn_view *view, limn_lod lod) {
     CHECK(less.vertex_count <= desc.vertex_budget && less.patch_count == full.patch_count);
     evaluate(s, &less);
     CHECK(less.patch_count < s->mesh.patch_count || sum_frame(s, &less) == 0);
-    if (lod == LIMN_LOD_ERROR) check_tolerance(s, view, desc, less.vertex_count);
+    check_lowering(s, view, desc, less.vertex_count);
 }
 
 /// Any split of a plan, in any order, gives the same bytes.
