@@ -122,9 +122,10 @@ static void check_tables(const limn_mesh *mesh) {
         const limn_file_class *const class = &mesh->classes[mesh->runs[r].class_index];
         const float *const table = mesh->tables + class->table_offset / sizeof(float);
         for (uint32_t row = 0; row < domain->row_counts[LIMN_LEVEL_MAX]; row++) {
+            const column_place place = place_of_row(class, false, row);
             double sum = 0;
             for (uint32_t slot = 0; slot < class->control_count; slot++) {
-                const double coefficient = coefficient_at(class, false, table, row, slot);
+                const double coefficient = coefficient_at(table, &place, slot);
                 sum += coefficient;
                 smallest = fmin(smallest, coefficient);
             }
