@@ -19,7 +19,7 @@ static const uint32_t control_counts[] = {3, 3, 12, 12, 24, 24, 25, 67, 256, 257
 static const uint16_t pair_counts[] = {0, 1, 0, 5, 0, 11, 0, 0, 0, 0, 0};
 enum { CLASSES = sizeof control_counts / sizeof *control_counts };
 
-typedef enum point_kind { RANDOM, EXTREME, DENORMAL, NOT_FINITE, KINDS } point_kind;
+typedef enum point_kind { RANDOM, EXTREME, DENORMAL, EQUAL, NOT_FINITE, KINDS } point_kind;
 
 static uint32_t state = 12345;
 
@@ -38,6 +38,8 @@ static float random_coordinate(point_kind kind) {
         return random_float(-1, 1) * (next_random() % 2 ? 1e30f : 1e-30f);
     case DENORMAL:
         return random_float(-1, 1) * 1e-39f;
+    case EQUAL:
+        return 3;
     case NOT_FINITE:
         return next_random() % 64 ? random_float(-10, 10) : next_random() % 2 ? NAN : -INFINITY;
     default:
@@ -428,6 +430,26 @@ static void test_normal_stream(made *m, const limn_kernels *kernels) {
     }
 }
 
+/// Where the cross product of the tangents is too short or too long to be squared, the normal is
+/// (0, 0, 1): of all rows whose tangents are 0 or denormal, and of many with extreme ones.
+static void test_fallback(made *m, const limn_kernels *kernels, bool all) {
+    static const float fallback[3] = {0, 0, 1};
+    const size_t count = (size_t)m->mesh.patch_count * 153;
+    size_t fallen = 0;
+    bool unit = true;
+    evaluate(m, kernels, LIMN_LEVEL_MAX, 24, 0, m->mesh.patch_count, actual);
+    for (size_t v = 0; v < count; v++) {
+        float normal[3];
+        if (v % 153 < 3) continue; // corners have the control points'
+        memcpy(normal, actual + GUARD + 24 * v + 12, sizeof normal);
+        const double n[3] = {normal[0], normal[1], normal[2]};
+        unit &= fabs(length_of(n) - 1) < 1e-6;
+        fallen += memcmp(normal, fallback, sizeof normal) == 0;
+    }
+    CHECK(unit);
+    CHECK(all ? fallen == count / 153 * 150 : fallen > 0);
+}
+
 // ---- Formats
 
 static const layout layouts[] = {
@@ -739,6 +761,8 @@ static void test_kernels(made *m, const limn_kernels *kernels, point_kind kind, 
         test_not_finite(m, kernels);
         return;
     }
+    if (kind != RANDOM) test_fallback(m, kernels, kind != EXTREME);
+    if (kind == EQUAL) return;
     if (kind == RANDOM && kernels->family == LIMN_FAMILY_REPRODUCIBLE) {
         test_golden(m, kernels);
         test_golden_plan(m, kernels);
