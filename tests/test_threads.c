@@ -134,9 +134,11 @@ static void build_plans(void *state, uint32_t begin, uint32_t end) {
         plans[p] = limn_plan_build(&mesh, mesh.controls, &view, 1, NULL, NULL, memories[p]);
 }
 
-/// All threads plan the same frame, each in memory of its own.
+/// All threads plan the same frame, each in memory of its own, of which nothing shows in the plan.
 static void test_planning(void) {
     const uint32_t count = sizeof plans / sizeof *plans;
+    for (uint32_t p = 0; p < count; p++)
+        memset(memories[p], (int)(0x55 * p), limn_plan_size(&mesh));
     run_loop(&(loop){.body = build_plans, .count = count, .step = 1});
     const size_t size = plans[0].patch_count * sizeof *plans[0].patches;
     for (uint32_t p = 0; p < count; p++) {
