@@ -69,8 +69,8 @@ static limn_plan plan_frame(const limn_mesh *mesh, void *memory) {
 /// The whole file, on a multiple of 64 bytes; NULL if it cannot be read.
 static void *read_file(const char *path, size_t *size) {
     FILE *const file = fopen(path, "rb");
-    if (!file || fseek(file, 0, SEEK_END) != 0) return NULL;
-    const long length = ftell(file);
+    if (!file) return NULL;
+    const long length = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
     *size = length < 0 ? 0 : (size_t)length;
     void *const blob = aligned_alloc(64, *size / 64 * 64 + 64);
     rewind(file);

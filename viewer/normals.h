@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Smooth normals from triangles, until the runtime evaluates exact limit normals: then this file
- * goes.
+ * Smooth normals from triangles, for all files alike: most are baked without exact ones.
  */
 #ifndef VIEW_NORMALS_H
 #define VIEW_NORMALS_H
