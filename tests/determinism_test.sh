@@ -42,23 +42,21 @@ bake() {
     echo "status $status" >>"$name.txt"
 }
 
-# Bakes every mesh with both weights, and those of the repository together. File names are relative, so that the
-# builds say the same words.
+# Bakes every mesh as it is, and mended with the other options; and those of the repository together, with both weights.
+# File names are relative, so that the builds say the same words.
 bake_all() {
     build=$1
     shift
     rm -rf "$work_folder/$build.out"
     mkdir "$work_folder/$build.out"
     cd "$work_folder/$build.out"
-    for weights in loop warren; do
-        for mesh in "$@"; do
-            bake "$build" "$weights-$(basename "$(dirname "$mesh")")-$(basename "$mesh")" --weights $weights "$mesh"
-        done
-        bake "$build" "$weights-all" --weights $weights --normals exact "$source_folder"/assets/*.obj "$source_folder"/assets/*.off
-    done
     for mesh in "$@"; do
-        bake "$build" "mended-$(basename "$(dirname "$mesh")")-$(basename "$mesh")" \
-            --repair --boundary edge-and-corner "$mesh"
+        name=$(basename "$(dirname "$mesh")")-$(basename "$mesh")
+        bake "$build" "plain-$name" "$mesh"
+        bake "$build" "mended-$name" --repair --weights warren --boundary edge-and-corner "$mesh"
+    done
+    for weights in loop warren; do
+        bake "$build" "$weights-all" --weights $weights --normals exact "$source_folder"/assets/*.obj "$source_folder"/assets/*.off
     done
     cd "$source_folder"
 }
