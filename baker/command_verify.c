@@ -9,8 +9,7 @@
 #include "compare.h"
 #include "numbers.h"
 
-#include <math.h>
-#include <stdlib.h>
+#include <float.h>
 
 static const double default_tolerance = 3e-7;
 
@@ -31,7 +30,7 @@ static const char help[] =
 typedef struct arguments {
     const char *input, *against;
     uint32_t mesh, repair;
-    double tolerance; ///< negative: the default
+    float tolerance; ///< negative: the default
     bool help;
 } arguments;
 
@@ -46,12 +45,6 @@ static const struct option options[] = {
     {0},
 };
 
-static bool parse_tolerance(const char *text, double *tolerance) {
-    char *end;
-    *tolerance = strtod(text, &end);
-    return end != text && *end == '\0' && *tolerance >= 0 && isfinite(*tolerance);
-}
-
 static int parse_option(int option, arguments *given) {
     switch (option) {
     case OPTION_AGAINST:
@@ -64,7 +57,7 @@ static int parse_option(int option, arguments *given) {
         if (limni_parse_repair(optarg, &given->repair)) return LIMNI_EXIT_OK;
         return limni_usage_error("verify", "cannot repair '%s'", optarg);
     case OPTION_TOLERANCE:
-        if (parse_tolerance(optarg, &given->tolerance)) return LIMNI_EXIT_OK;
+        if (limni_parse_real(optarg, 0, FLT_MAX, &given->tolerance)) return LIMNI_EXIT_OK;
         return limni_usage_error("verify", "'%s' is not a tolerance", optarg);
     case 'h':
         given->help = true;
@@ -110,7 +103,7 @@ static int verify(const arguments *given, const limn_pack *pack) {
                (unsigned long long)(comparison.normal_count + comparison.degenerate_count));
     fflush(stdout);
     const double allowed =
-        given->tolerance >= 0 ? given->tolerance : default_tolerance + comparison.rounding;
+        given->tolerance >= 0 ? (double)given->tolerance : default_tolerance + comparison.rounding;
     if (!(comparison.largest <= allowed))
         return limni_failure("the largest difference is above %g", allowed);
     return LIMNI_EXIT_OK;

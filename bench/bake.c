@@ -4,6 +4,7 @@
  * what is stored. Every mesh is baked in a process of its own, so that the peak of its memory can
  * be seen.
  */
+#include "arguments.h"
 #include "bench.h"
 
 #include "limn/bake.h"
@@ -14,7 +15,6 @@
 #include "opensubdiv.h"
 #endif
 
-#include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,7 +33,7 @@ static const char help[] =
     "per distinct vertex, positions only; 0: built without OpenSubdiv, or the grid).\n\n"
     "  --grid N   squares along an edge of the grid (default 707: 999,698 faces); 0: no grid\n";
 
-enum { RUNS = 3 };
+enum { RUNS = 3, GRID_MAX = 6000 }; // squares: some 3 GiB of positions and indices
 
 typedef struct outcome {
     double seconds;
@@ -177,18 +177,16 @@ static bool bench_mesh(const char *path, uint32_t squares) {
     return true;
 }
 
+static bool parse_option(int option, void *squares) {
+    return option == 'g' && bench_parse_range(optarg, 0, GRID_MAX, squares);
+}
+
 int bench_bake(int argc, char **argv) {
     static const struct option options[] = {
         {"grid", required_argument, NULL, 'g'}, {"help", no_argument, NULL, 'h'}, {0}};
     uint32_t squares = 707;
-    for (int option; (option = getopt_long(argc, argv, "h", options, NULL)) != -1;) {
-        if (option == 'h') {
-            fputs(help, stdout);
-            return 0;
-        }
-        if (option != 'g') return 2;
-        squares = (uint32_t)strtoul(optarg, NULL, 10);
-    }
+    const int status = bench_read_options(argc, argv, help, options, parse_option, &squares);
+    if (status >= 0) return status;
     bench_print_conditions(stdout);
     printf("%-28s %9s %8s %9s %9s %12s %13s %14s %14s\n", "mesh", "faces", "classes", "seconds",
            "peak MiB", "patch B/face", "table bytes", "all B/face", "OpenSubdiv");

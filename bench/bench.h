@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 
 #ifdef __cplusplus
@@ -23,7 +24,7 @@ int bench_plan(int argc, char **argv);
 double bench_seconds(void);
 
 /// The median; reorders the values.
-double bench_median(double *values, int count);
+double bench_median(double *values, uint32_t count);
 
 /// A file for results, opened before they are measured and renamed when they are complete. Without
 /// a path there is none, and no stream. Both say what went wrong.

@@ -3,13 +3,12 @@
  * limn-bench dolly: how far levels of detail move the surface while a camera comes nearer, with
  * morphing and without.
  */
+#include "arguments.h"
 #include "bench.h"
 #include "drawn.h"
 #include "lods.h"
 #include "mixes.h"
-#include "numbers.h"
 
-#include <getopt.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -113,7 +112,8 @@ static bool run(const options *o, const char *path) {
     return good && fflush(stdout) == 0;
 }
 
-static bool parse_option(int option, options *to) {
+static bool parse_option(int option, void *parsed) {
+    options *const to = parsed;
     const bench_lod *lod;
     switch (option) {
     case 'l':
@@ -129,7 +129,7 @@ static bool parse_option(int option, options *to) {
     case 't':
         return limni_parse_real(optarg, 1e-3f, 1e6f, &to->to);
     case 'n':
-        return limni_parse_number(optarg, 1000000, &to->frames) && to->frames >= 2;
+        return bench_parse_range(optarg, 2, 1000000, &to->frames);
     default:
         return false;
     }
@@ -145,19 +145,8 @@ int bench_dolly(int argc, char **argv) {
                                           {"help", no_argument, NULL, 'h'},
                                           {0}};
     options o = {.desc = {.lod = LIMN_LOD_LENGTH, .pixels = 8}, .from = 16, .to = 1, .frames = 600};
-    int which = 0;
-    for (int option; (option = getopt_long(argc, argv, "h", names, &which)) != -1;) {
-        if (option == 'h') {
-            fputs(help, stdout);
-            return 0;
-        }
-        if (parse_option(option, &o)) continue;
-        if (option != '?')
-            fprintf(stderr, "limn-bench: --%s: '%s' is out of range or unknown\n",
-                    names[which].name, optarg);
-        fprintf(stderr, "see limn-bench dolly --help\n");
-        return 2;
-    }
+    const int status = bench_read_options(argc, argv, help, names, parse_option, &o);
+    if (status >= 0) return status;
     if (optind + 1 != argc) {
         fputs("limn-bench: one mesh; see limn-bench dolly --help\n", stderr);
         return 2;

@@ -4,6 +4,7 @@
  * how much of what this core can do at most that is. Everything is measured in turn, round after
  * round, in one process.
  */
+#include "arguments.h"
 #include "bench.h"
 
 #include "mixes.h"
@@ -15,7 +16,6 @@
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
-#include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -68,9 +68,9 @@ typedef struct options {
     uint32_t isa_mask;
     uint32_t output_mask; ///< bit o: outputs[o]
     bool all_modes;
-    int rounds;
+    uint32_t rounds;
     double sample_seconds;
-    size_t buffer_size;
+    size_t buffer_size; ///< a multiple of 4096
     const char *csv;
 } options;
 
@@ -263,7 +263,7 @@ static void measure_peaks(const session *s, variant *v) {
         bench_peak_store(v->peak, (float *)(void *)s->buffer, s->options.buffer_size, seconds);
 }
 
-static void measure_cell(session *s, cell *c, int round) {
+static void measure_cell(session *s, cell *c, uint32_t round) {
     limn_mesh mesh = c->mix->base.mesh;
     mesh.kernels = c->variant->kernels;
     const limn_plan plan = limn_plan_uniform(&mesh, c->level);
@@ -274,16 +274,16 @@ static void measure_cell(session *s, cell *c, int round) {
                                .bytes = seconds * c->variant->store_rate};
 }
 
-static double median_of(const cell *c, size_t offset, int rounds) {
+static double median_of(const cell *c, size_t offset, uint32_t rounds) {
     double values[ROUND_MAX];
-    for (int round = 0; round < rounds; round++)
+    for (uint32_t round = 0; round < rounds; round++)
         memcpy(&values[round], (const char *)&c->samples[round] + offset, sizeof *values);
     return bench_median(values, rounds);
 }
 
 static void measure(session *s) {
-    const int rounds = s->options.rounds;
-    for (int round = 0; round < rounds; round++) {
+    const uint32_t rounds = s->options.rounds;
+    for (uint32_t round = 0; round < rounds; round++) {
         for (uint32_t c = 0; c < s->cell_count; c++)
             measure_cell(s, &s->cells[c], round);
     }
@@ -446,7 +446,7 @@ static void add_levels(session *s, const mix *m, const struct output_kind *outpu
             .level = level,
             .is_shuffled = mode & 1,
             .is_cold = mode & 2,
-            .samples = allocate((size_t)s->options.rounds, sizeof(cost)),
+            .samples = allocate(s->options.rounds, sizeof(cost)),
         };
     }
 }
@@ -496,7 +496,7 @@ static bool run(session *s, char **paths, int path_count, FILE *csv) {
     add_cells(s);
     measure(s);
     bench_print_conditions(stdout);
-    printf("%d rounds; vertices go to a buffer of %zu KiB\n", s->options.rounds,
+    printf("%u rounds; vertices go to a buffer of %zu KiB\n", s->options.rounds,
            s->options.buffer_size / 1024);
     print_peaks(s);
     for (uint32_t m = 0; m < s->mix_count; m++) {
@@ -536,7 +536,9 @@ static uint32_t parse_list(const char *list, bit_name *name_of) {
     return mask;
 }
 
-static bool parse_option(int option, options *to) {
+static bool parse_option(int option, void *parsed) {
+    options *const to = parsed;
+    uint32_t kib;
     switch (option) {
     case 'i':
         to->isa_mask = parse_list(optarg, isa_name);
@@ -548,15 +550,15 @@ static bool parse_option(int option, options *to) {
         to->all_modes = true;
         return true;
     case 'r':
-        to->rounds = atoi(optarg);
-        return to->rounds > 0 && to->rounds <= ROUND_MAX;
+        return bench_parse_range(optarg, 1, ROUND_MAX, &to->rounds);
     case 'q':
         to->rounds = 3;
         to->sample_seconds = 3e-4;
         return true;
     case 'b':
-        to->buffer_size = (size_t)strtoul(optarg, NULL, 10) * 1024;
-        return to->buffer_size >= 4096 && to->buffer_size % 4096 == 0;
+        if (!bench_parse_range(optarg, 4, 1 << 20, &kib) || kib % 4 != 0) return false;
+        to->buffer_size = 1024 * (size_t)kib;
+        return true;
     case 'c':
         to->csv = optarg;
         return true;
@@ -580,20 +582,8 @@ int bench_kernels(int argc, char **argv) {
                              .rounds = 25,
                              .sample_seconds = 1e-3,
                              .buffer_size = 64 * 1024}};
-    int which = 0;
-    for (int option; (option = getopt_long(argc, argv, "h", names, &which)) != -1;) {
-        if (option == 'h') {
-            fputs(help, stdout);
-            return 0;
-        }
-        if (!parse_option(option, &s.options)) {
-            if (option != '?')
-                fprintf(stderr, "limn-bench: --%s: '%s' is out of range or unknown\n",
-                        names[which].name, optarg ? optarg : "");
-            fprintf(stderr, "see limn-bench kernels --help\n");
-            return 2;
-        }
-    }
+    const int status = bench_read_options(argc, argv, help, names, parse_option, &s.options);
+    if (status >= 0) return status;
     limni_output_file csv;
     if (!bench_results_open(&csv, s.options.csv)) return 1;
     const bool good = run(&s, argv + optind, argc - optind, csv.stream);

@@ -19,8 +19,8 @@ static int compare_doubles(const void *a, const void *b) {
     return (left > right) - (left < right);
 }
 
-double bench_median(double *values, int count) {
-    qsort(values, (size_t)count, sizeof *values, compare_doubles);
+double bench_median(double *values, uint32_t count) {
+    qsort(values, count, sizeof *values, compare_doubles);
     return count % 2 ? values[count / 2] : (values[count / 2 - 1] + values[count / 2]) / 2;
 }
 

@@ -3,13 +3,12 @@
  * limn-bench peers: Limn beside what one would otherwise use, on the same mesh, at the same points,
  * in interleaved rounds within one process.
  */
+#include "arguments.h"
 #include "bench.h"
-#include "numbers.h"
 #include "peers/allocate.h"
 #include "peers/peer.h"
 #include "peers/report.h"
 
-#include <getopt.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -159,7 +158,7 @@ static double find_ratio(const double *times, const double *limn_times, uint32_t
     double *const ratios = bench_allocate(rounds, sizeof *ratios);
     for (uint32_t round = 0; round < rounds; round++)
         ratios[round] = times[round] / limn_times[round];
-    const double ratio = bench_median(ratios, (int)rounds);
+    const double ratio = bench_median(ratios, rounds);
     free(ratios);
     return ratio;
 }
@@ -181,8 +180,7 @@ static void summarize(const peer_scene *scene, const peer_list *list, uint32_t r
                  : (double)NAN;
     }
     for (uint32_t p = 0; p < list->count; p++) // last: it reorders the rounds
-        results[p].ns_per_face =
-            1e9 * bench_median(times + p * rounds, (int)rounds) / scene->face_count;
+        results[p].ns_per_face = 1e9 * bench_median(times + p * rounds, rounds) / scene->face_count;
 }
 
 static bool compare(peer_scene *scene, const peer_list *list, uint32_t rounds,
@@ -219,20 +217,32 @@ static bool bench_mesh(const char *path, const peers_options *options, peer_resu
 // -------------------------------------------------------------------------------------------------
 // The command
 
-/// Returns false when `text` is not a number in the range.
-static bool read_number(const char *text, uint32_t low, uint32_t high, uint32_t *number) {
-    if (limni_parse_number(text, high, number) && *number >= low) return true;
-    fprintf(stderr, "limn-bench: '%s' is not a number from %u to %u\n", text, low, high);
-    return false;
-}
-
 static uint32_t count_processors(void) {
     const long count = sysconf(_SC_NPROCESSORS_ONLN);
     return count < 1 ? 1 : count > 8 ? 8 : (uint32_t)count;
 }
 
-/// Returns the exit status, or -1 to go on.
-static int read_options(int argc, char **argv, peers_options *options) {
+static bool parse_option(int option, void *parsed) {
+    peers_options *const to = parsed;
+    switch (option) {
+    case 'r':
+        return bench_parse_range(optarg, 1, 10000, &to->rounds);
+    case 'l':
+        return bench_parse_range(optarg, 0, LIMN_LEVEL_MAX, &to->level);
+    case 't':
+        return bench_parse_range(optarg, 1, 256, &to->threads);
+    case 'j':
+        to->json_path = optarg;
+        return true;
+    case 'c':
+        to->csv_path = optarg;
+        return true;
+    default:
+        return false;
+    }
+}
+
+int bench_peers(int argc, char **argv) {
     static const struct option names[] = {{"rounds", required_argument, NULL, 'r'},
                                           {"level", required_argument, NULL, 'l'},
                                           {"threads", required_argument, NULL, 't'},
@@ -240,41 +250,13 @@ static int read_options(int argc, char **argv, peers_options *options) {
                                           {"csv", required_argument, NULL, 'c'},
                                           {"help", no_argument, NULL, 'h'},
                                           {0}};
-    for (int option; (option = getopt_long(argc, argv, "h", names, NULL)) != -1;) {
-        bool good = true;
-        switch (option) {
-        case 'r':
-            good = read_number(optarg, 1, 10000, &options->rounds);
-            break;
-        case 'l':
-            good = read_number(optarg, 0, LIMN_LEVEL_MAX, &options->level);
-            break;
-        case 't':
-            good = read_number(optarg, 1, 256, &options->threads);
-            break;
-        case 'j':
-            options->json_path = optarg;
-            break;
-        case 'c':
-            options->csv_path = optarg;
-            break;
-        case 'h':
-            fputs(help, stdout);
-            return 0;
-        default:
-            good = false;
-        }
-        if (!good) return 2;
-    }
-    if (optind < argc) return -1;
-    fputs("limn-bench: no mesh; see limn-bench peers --help\n", stderr);
-    return 2;
-}
-
-int bench_peers(int argc, char **argv) {
     peers_options options = {.rounds = 15, .level = LIMN_LEVEL_MAX, .threads = count_processors()};
-    const int status = read_options(argc, argv, &options);
+    const int status = bench_read_options(argc, argv, help, names, parse_option, &options);
     if (status >= 0) return status;
+    if (optind == argc) {
+        fputs("limn-bench: no mesh; see limn-bench peers --help\n", stderr);
+        return 2;
+    }
     limni_output_file json, csv;
     if (!bench_results_open(&json, options.json_path)) return 1;
     if (!bench_results_open(&csv, options.csv_path)) {

@@ -4,15 +4,14 @@
  * ones, and two threads beside one. Everything is measured in turn, round after round, in one
  * process.
  */
+#include "arguments.h"
 #include "bench.h"
 #include "frames.h"
 #include "lods.h"
 #include "mixes.h"
-#include "numbers.h"
 #include "peers/allocate.h"
 #include "peers/team.h"
 
-#include <getopt.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -51,7 +50,7 @@ typedef struct options {
     float pixels;
     bool fast;
     uint32_t threads;
-    int rounds;
+    uint32_t rounds;
     double sample_seconds;
     size_t buffer_size;
     const char *csv;
@@ -159,7 +158,7 @@ static double sample(job *j, double least_seconds) {
 }
 
 static void measure(session *s) {
-    for (int round = 0; round < s->options.rounds; round++) {
+    for (uint32_t round = 0; round < s->options.rounds; round++) {
         for (uint32_t k = 0; k < s->job_count; k++)
             s->jobs[k].samples[round] = sample(&s->jobs[k], s->options.sample_seconds);
     }
@@ -168,14 +167,14 @@ static void measure(session *s) {
 /// Median of the ratio in each round, which passing loads disturb least.
 static double ratio(const session *s, const job *of, const job *to) {
     double values[ROUND_MAX];
-    for (int round = 0; round < s->options.rounds; round++)
+    for (uint32_t round = 0; round < s->options.rounds; round++)
         values[round] = of->samples[round] / to->samples[round];
     return bench_median(values, s->options.rounds);
 }
 
 static double nanoseconds(const session *s, const job *of) {
     double values[ROUND_MAX];
-    memcpy(values, of->samples, (size_t)s->options.rounds * sizeof *values);
+    memcpy(values, of->samples, s->options.rounds * sizeof *values);
     return 1e9 * bench_median(values, s->options.rounds);
 }
 
@@ -255,9 +254,8 @@ static void write_figures(const session *s) {
 
 static job *add_job(session *s, const bench_frame *frame) {
     job *const j = &s->jobs[s->job_count++];
-    *j = (job){.frame = frame,
-               .in = s,
-               .samples = bench_allocate((size_t)s->options.rounds, sizeof(double))};
+    *j = (job){
+        .frame = frame, .in = s, .samples = bench_allocate(s->options.rounds, sizeof(double))};
     return j;
 }
 
@@ -358,7 +356,7 @@ static bool run(session *s, char **paths, int path_count) {
     if (s->csv) write_head(s->csv);
     create_buffers(s);
     bench_print_conditions(stdout);
-    printf("%d rounds; tolerance %g pixels; vertices go to buffers of %zu KiB\n", s->options.rounds,
+    printf("%u rounds; tolerance %g pixels; vertices go to buffers of %zu KiB\n", s->options.rounds,
            (double)s->options.pixels, s->options.buffer_size / 1024);
     bool good = path_count > 0 || bench_mesh(s, NULL);
     for (int p = 0; p < path_count; p++)
@@ -367,13 +365,9 @@ static bool run(session *s, char **paths, int path_count) {
     return bench_results_close(&csv, s->options.csv, good);
 }
 
-/// A number in the range, or 0.
-static uint32_t read_number(const char *text, uint32_t low, uint32_t high) {
-    uint32_t value;
-    return limni_parse_number(text, high, &value) && value >= low ? value : 0;
-}
-
-static bool parse_option(int option, options *to) {
+static bool parse_option(int option, void *parsed) {
+    options *const to = parsed;
+    uint32_t kib;
     switch (option) {
     case 'p':
         return limni_parse_real(optarg, 1e-6f, 1e6f, &to->pixels);
@@ -381,15 +375,17 @@ static bool parse_option(int option, options *to) {
         to->fast = true;
         return true;
     case 't':
-        return (to->threads = read_number(optarg, 2, 256)) > 0;
+        return bench_parse_range(optarg, 2, 256, &to->threads);
     case 'r':
-        return (to->rounds = (int)read_number(optarg, 1, ROUND_MAX)) > 0;
+        return bench_parse_range(optarg, 1, ROUND_MAX, &to->rounds);
     case 'q':
         to->rounds = 3;
         to->sample_seconds = 3e-4;
         return true;
     case 'b':
-        return (to->buffer_size = 1024 * (size_t)read_number(optarg, 4, 1 << 20)) > 0;
+        if (!bench_parse_range(optarg, 4, 1 << 20, &kib)) return false;
+        to->buffer_size = 1024 * (size_t)kib;
+        return true;
     case 'c':
         to->csv = optarg;
         return true;
@@ -413,18 +409,7 @@ int bench_plan(int argc, char **argv) {
                                     .rounds = 15,
                                     .sample_seconds = 2e-3,
                                     .buffer_size = 64 * 1024}};
-    int which = 0;
-    for (int option; (option = getopt_long(argc, argv, "h", names, &which)) != -1;) {
-        if (option == 'h') {
-            fputs(help, stdout);
-            return 0;
-        }
-        if (parse_option(option, &s.options)) continue;
-        if (option != '?')
-            fprintf(stderr, "limn-bench: --%s: '%s' is out of range or unknown\n",
-                    names[which].name, optarg ? optarg : "");
-        fprintf(stderr, "see limn-bench plan --help\n");
-        return 2;
-    }
+    const int status = bench_read_options(argc, argv, help, names, parse_option, &s.options);
+    if (status >= 0) return status;
     return run(&s, argv + optind, argc - optind) ? 0 : 1;
 }

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+#include "arguments.h"
+
+#include <stdio.h>
+
+int bench_read_options(int argc, char **argv, const char *help, const struct option *names,
+                       bench_option_parser *parse, void *options) {
+    int which = 0;
+    for (int option; (option = getopt_long(argc, argv, "h", names, &which)) != -1;) {
+        if (option == 'h') {
+            fputs(help, stdout);
+            return 0;
+        }
+        if (option != '?' && parse(option, options)) continue;
+        if (option != '?')
+            fprintf(stderr, "limn-bench: --%s: '%s' is out of range or unknown\n",
+                    names[which].name, optarg ? optarg : "");
+        fprintf(stderr, "see limn-bench %s --help\n", argv[0]);
+        return 2;
+    }
+    return -1;
+}
+
+bool bench_parse_range(const char *text, uint32_t low, uint32_t high, uint32_t *value) {
+    uint32_t number;
+    if (!limni_parse_number(text, high, &number) || number < low) return false;
+    *value = number;
+    return true;
+}
