@@ -25,6 +25,12 @@ int limni_failure(const char *format, ...) {
     return LIMNI_EXIT_FAILED;
 }
 
+int limni_command_end(limni_context *context, limn_bake_status status) {
+    if (status != LIMN_BAKE_OK) limni_failure("%s", context->error);
+    limni_release_all(context);
+    return status == LIMN_BAKE_OK ? LIMNI_EXIT_OK : LIMNI_EXIT_FAILED;
+}
+
 bool limni_pack_file_open(limni_pack_file *file, const char *path) {
     char error[512];
     if (!limni_blob_file_open(&file->blob, path, error, sizeof error)) {

@@ -25,6 +25,10 @@ int limni_usage_error(const char *command, const char *format, ...) LIMNI_PRINTF
 /// Prints "limn: message" to stderr. Returns LIMNI_EXIT_FAILED.
 int limni_failure(const char *format, ...) LIMNI_PRINTF(1, 2);
 
+/// Says what went wrong, if anything did, and releases all that the context holds. Returns the exit
+/// status.
+int limni_command_end(limni_context *context, limn_bake_status status);
+
 /// An opened .limn file.
 typedef struct limni_pack_file {
     limni_blob_file blob;

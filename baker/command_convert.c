@@ -161,8 +161,5 @@ int limni_command_convert(int argc, char **argv) {
         return LIMNI_EXIT_OK;
     }
     limni_context context = {.desc = {.note = print_note, .user = &given}};
-    const limn_bake_status converted = convert(&context, &given);
-    if (converted != LIMN_BAKE_OK) limni_failure("%s", context.error);
-    limni_release_all(&context);
-    return converted == LIMN_BAKE_OK ? LIMNI_EXIT_OK : LIMNI_EXIT_FAILED;
+    return limni_command_end(&context, convert(&context, &given));
 }

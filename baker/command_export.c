@@ -151,9 +151,7 @@ int limni_command_export(int argc, char **argv) {
     limni_pack_file file;
     if (!limni_pack_file_open(&file, given.input)) return LIMNI_EXIT_FAILED;
     limni_context context = {0};
-    const limn_bake_status exported = export_pack(&context, &file.pack, &given);
-    if (exported != LIMN_BAKE_OK) limni_failure("%s", context.error);
-    limni_release_all(&context);
+    const int ended = limni_command_end(&context, export_pack(&context, &file.pack, &given));
     limni_pack_file_close(&file);
-    return exported == LIMN_BAKE_OK ? LIMNI_EXIT_OK : LIMNI_EXIT_FAILED;
+    return ended;
 }

@@ -85,11 +85,9 @@ static int verify(const arguments *given, const limn_pack *pack) {
     limni_context context = {.desc = {.repair = given->repair}};
     const limn_mesh mesh = limn_pack_mesh(pack, given->mesh);
     limni_comparison comparison;
-    const limn_bake_status status =
-        limni_compare(&context, pack, &mesh, given->against, &comparison);
-    if (status != LIMN_BAKE_OK) limni_failure("%s", context.error);
-    limni_release_all(&context);
-    if (status != LIMN_BAKE_OK) return LIMNI_EXIT_FAILED;
+    const int compared = limni_command_end(
+        &context, limni_compare(&context, pack, &mesh, given->against, &comparison));
+    if (compared != LIMNI_EXIT_OK) return compared;
 
     printf("%s: %llu vertices of %u faces; difference from OpenSubdiv's limit, relative to the "
            "diagonal %g: largest %.3g (face %u), mean %.3g\n",
