@@ -63,9 +63,9 @@ static smooth_runs find_smooth_runs(const limni_star *star, uint32_t first_sharp
 }
 
 /// Whether normals at a control point can be compared (docs/design.md). OpenSubdiv's tangents at
-/// boundary vertices of valence 5 and more are not those of the limit, but converge to them with the
-/// level of refinement, and those of its surfaces on creases likewise at all but regular ones, and
-/// at corners with smooth edges. Ours are not those of the limit at the end of a crease.
+/// boundary vertices of valence 5 and more are not those of the limit, but converge to them with
+/// the level of refinement, and those of its surfaces on creases likewise at all but regular ones,
+/// and at corners with smooth edges. Ours are not those of the limit at the end of a crease.
 ///
 /// sided  see answer
 static bool has_comparable_normals(const limni_star *star, bool sided) {

@@ -50,8 +50,8 @@ static void mark_unused(const limni_dense *dense, uint32_t *moved) {
         moved[dense->indices[i]] = 0;
 }
 
-/// Moves the vertices that are kept to the front. Fills `moved`, where they are not LIMNI_NONE, with
-/// the new index of each. table: NULL: none are merged.
+/// Moves the vertices that are kept to the front. Fills `moved`, where they are not LIMNI_NONE,
+/// with the new index of each. table: NULL: none are merged.
 static void compact_vertices(const limn_plan *plan, place_table *table, limni_dense *dense,
                              uint32_t *moved) {
     const limn_domain *const domain = plan->mesh->domain;
@@ -78,8 +78,8 @@ static void compact_vertices(const limn_plan *plan, place_table *table, limni_de
     dense->vertex_count = kept;
 }
 
-/// Drops vertices that are not used, and if asked to merges those that patches share, where all bits
-/// of their positions are equal.
+/// Drops vertices that are not used, and if asked to merges those that patches share, where all
+/// bits of their positions are equal.
 static limn_bake_status compact(limni_context *context, const limn_plan *plan, bool weld,
                                 limni_dense *dense) {
     uint32_t *const moved = limni_allocate(context, dense->vertex_count, sizeof *moved);

@@ -200,10 +200,10 @@ static double square_to_near(const limni_ruler *ruler, uint32_t level, uint32_t 
 
 // ---- All levels
 
-/// What rows may miss, as a factor to squares. A quadratic surface that is as far off over all three
-/// sides of a triangle is 4/3 of that off in the middle. The row next to the middle, `seen` levels
-/// below, is off by 1 - 4^-seen of the most. At level 3, where only the middles of sides have rows,
-/// 4/3 is the most that any quadratic surface can be off between them.
+/// What rows may miss, as a factor to squares. A quadratic surface that is as far off over all
+/// three sides of a triangle is 4/3 of that off in the middle. The row next to the middle, `seen`
+/// levels below, is off by 1 - 4^-seen of the most. At level 3, where only the middles of sides
+/// have rows, 4/3 is the most that any quadratic surface can be off between them.
 static double between_rows(uint32_t seen) {
     const double quarters = (double)(1u << 2 * seen), factor = quarters / (quarters - 1);
     return factor * factor;

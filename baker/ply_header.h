@@ -62,9 +62,10 @@ typedef struct limni_ply_header {
     uint32_t vertex_count; ///< of the element vertex
 } limni_ply_header;
 
-/// Reads the header at the start of `text`, which ends with a zero and may go on with anything. After
-/// success there is a format, the element vertex has x, y and z once each, and the element face has
-/// one list of whole numbers, its corners. The counts are as stated. Memory belongs to the context.
+/// Reads the header at the start of `text`, which ends with a zero and may go on with anything.
+/// After success there is a format, the element vertex has x, y and z once each, and the element
+/// face has one list of whole numbers, its corners. The counts are as stated. Memory belongs to the
+/// context.
 limn_bake_status limni_ply_header_read(limni_context *context, const char *path, const char *text,
                                        limni_ply_header *header);
 

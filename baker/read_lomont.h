@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Lomont's extended OBJ, version 0.1: table 3 of "High Performance Subdivision Surfaces" (2007).
- * Triangles with their half-edges, and sharpness for each half-edge and vertex. What it has no entry
- * for may follow as OpenSubdiv's tags (read_tag.h): holes, the boundary rule, the creasing method,
- * and sharpness of boundary edges, which are for ever sharp otherwise.
+ * Triangles with their half-edges, and sharpness for each half-edge and vertex. What it has no
+ * entry for may follow as OpenSubdiv's tags (read_tag.h): holes, the boundary rule, the creasing
+ * method, and sharpness of boundary edges, which are for ever sharp otherwise.
  */
 #ifndef LIMNI_READ_LOMONT_H
 #define LIMNI_READ_LOMONT_H

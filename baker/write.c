@@ -141,7 +141,8 @@ static const char *boundary_name(const limni_patches *meshes, uint32_t mesh_coun
     return names[meshes[0].rules.boundary];
 }
 
-/// The creasing method of all meshes with sharp features, or that they differ; NULL: there are none.
+/// The creasing method of all meshes with sharp features, or that they differ; NULL: there are
+/// none.
 static const char *creasing_name(const limni_patches *meshes, uint32_t mesh_count) {
     const char *name = NULL;
     for (uint32_t m = 0; m < mesh_count; m++) {

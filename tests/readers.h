@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What tests of the mesh readers share: good texts, bad texts with their messages, damaged texts. */
+/* What tests of mesh readers share: good texts, bad texts with their messages, damaged texts. */
 #ifndef READERS_H
 #define READERS_H
 

@@ -14,8 +14,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/// Of the bound, which is that of vertices. A point has fixed parameters, over which triangles slide
-/// by no more than their vertices move: twice the bound at most.
+/// Of the bound, which is that of vertices. A point has fixed parameters, over which triangles
+/// slide by no more than their vertices move: twice the bound at most.
 #define SHARE_MAX 2.0
 /// Where all levels are the same, no triangle slides along an edge; DRAWN_ROUNDING is a hundred
 /// roundings, of which two count.

@@ -260,8 +260,8 @@ static bool load(subject *s, const char *path) {
     if (limn_baker_add_file(s->baker, path) != LIMN_BAKE_OK) return false;
     if (!open_baked(s->baker, &s->mesh)) return false;
     find_patches(s);
-    // Around vertices of valence 2 two edges may have the same ends, and their halves then cannot be
-    // told apart.
+    // Around vertices of valence 2 two edges may have the same ends, and their halves then cannot
+    // be told apart.
     if (bake_fine(s) != LIMN_BAKE_OK) return false;
     if (!open_baked(s->fine_baker, &s->fine)) return false;
     sample_limit(s);

@@ -2,7 +2,8 @@
 /*
  * Whole frames with levels of detail: over many meshes and random cameras, what would be drawn is a
  * surface by bits, positions and normals, closed but for the boundary of the mesh, and of the same
- * topology; rows are where the definition of morphing puts them; what is culled cannot be seen; budgets are kept; splits change nothing.
+ * topology; rows are where the definition of morphing puts them; what is culled cannot be seen;
+ * budgets are kept; splits change nothing.
  */
 #include "check.h"
 #include "limn/bake.h"

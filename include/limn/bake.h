@@ -119,8 +119,8 @@ typedef struct limn_baker limn_baker;
 limn_baker *limn_baker_create(const limn_bake_desc *desc);
 void limn_baker_destroy(limn_baker *baker);
 
-/// Adds the mesh in an .obj, .off or .ply file, named after the file. After an error the baker can only
-/// be destroyed.
+/// Adds the mesh in an .obj, .off or .ply file, named after the file. After an error the baker can
+/// only be destroyed.
 limn_bake_status limn_baker_add_file(limn_baker *baker, const char *path);
 
 /// Adds a mesh from memory, copying it. Errors name faces and vertices by index from 0. Tags of

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Fuzz targets in libFuzzer's form: bytes in, no crash, no sanitizer's complaint, no broken promise.
- * run_corpus.c runs a target over files without a fuzzer; the preset `fuzz` links libFuzzer.
+ * Fuzz targets in libFuzzer's form: bytes in, no crash, no sanitizer's complaint, no broken
+ * promise. run_corpus.c runs a target over files without a fuzzer; the preset `fuzz` links
+ * libFuzzer.
  */
 #ifndef FUZZ_H
 #define FUZZ_H

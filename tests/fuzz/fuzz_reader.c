@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * One mesh reader, FUZZ_READ, on a file named FUZZ_PATH; and what it has read through all repairs to
- * the control mesh.
+ * One mesh reader, FUZZ_READ, on a file named FUZZ_PATH; and what it has read through all repairs
+ * to the control mesh.
  */
 #include "../../baker/mesh.h"
 #include "../../baker/read_lomont.h"

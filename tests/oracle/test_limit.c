@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Every mesh, baked and evaluated at level 4, beside OpenSubdiv's limit in double precision: all 153
- * rows of every face within 3e-7 of the diagonal. Tags and all; and random tags.
+ * Every mesh, baked and evaluated at level 4, beside OpenSubdiv's limit in double precision: all
+ * 153 rows of every face within 3e-7 of the diagonal. Tags and all; and random tags.
  */
 #include "../../baker/compare.h"
 #include "../../baker/source.h"

@@ -55,7 +55,7 @@ static uint32_t check_shared_edges(const limni_opensubdiv_mesh *mesh, point *lim
     return shared_count;
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // A torus of valence 6 throughout. Its refinement is again such a torus, so that Loop's regular
 // masks on a periodic grid of points (x, y) are the reference for all rows.
 
@@ -189,7 +189,7 @@ static void test_levels(void) {
     free(limit);
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // Small meshes with extraordinary vertices
 
 static const float octahedron_positions[] = {1, 0,  0, -1, 0, 0, 0, 1, 0,
@@ -278,7 +278,7 @@ static void test_boundary(void) {
     free(limit);
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // Refusals and stencils
 
 static void check_refused(const uint32_t *faces, uint32_t face_count, const char *part) {
