@@ -41,31 +41,22 @@ static limn_creasing creasing_of(const char *name, const limni_mesh *source) {
     return strcmp(name, "chaikin") == 0 ? LIMN_CREASING_CHAIKIN : LIMN_CREASING_UNIFORM;
 }
 
-/// Smooth edges, one after the other, between two edges that stay sharp.
-typedef struct smooth_runs {
-    uint32_t least, most;
-} smooth_runs;
-
-static smooth_runs find_smooth_runs(const limni_star *star, uint32_t first_sharp) {
-    smooth_runs runs = {.least = UINT32_MAX};
-    uint32_t run = 0;
+/// The most smooth edges that follow one another between two edges that stay sharp.
+static uint32_t longest_smooth_run(const limni_star *star, uint32_t first_sharp) {
+    uint32_t run = 0, longest = 0;
     for (uint32_t r = 1; r <= (star->closed ? star->count : star->count - 1); r++) {
         const uint32_t place = (first_sharp + r) % star->count;
-        if (limni_star_edge(star, place) < LIMNI_SHARPNESS_INFINITE) {
-            run++;
-            continue;
-        }
-        if (run < runs.least) runs.least = run;
-        if (run > runs.most) runs.most = run;
-        run = 0;
+        run = limni_star_edge(star, place) < LIMNI_SHARPNESS_INFINITE ? run + 1 : 0;
+        if (run > longest) longest = run;
     }
-    return runs;
+    return longest;
 }
 
 /// Whether normals at a control point can be compared (docs/design.md). OpenSubdiv's tangents at
 /// boundary vertices of valence 5 and more are not those of the limit, but converge to them with
-/// the level of refinement, and those of its surfaces on creases likewise at all but regular ones,
-/// and at corners with smooth edges. Ours are not those of the limit at the end of a crease.
+/// the level of refinement, and those of its surfaces likewise on creases with four faces and more
+/// on a side, and at corners with smooth edges. Ours are not those of the limit at the end of a
+/// crease.
 ///
 /// sided  see answer
 static bool has_comparable_normals(const limni_star *star, bool sided) {
@@ -73,14 +64,14 @@ static bool has_comparable_normals(const limni_star *star, bool sided) {
     const bool boundary = !star->closed && last.rule == LIMNI_VERTEX_CREASE;
     if (!sided && !boundary && last.rule != LIMNI_VERTEX_SMOOTH) return false;
     const bool any_sharp = limni_star_edge(star, last.ends[0]) >= LIMNI_SHARPNESS_INFINITE;
-    const smooth_runs runs = any_sharp ? find_smooth_runs(star, last.ends[0]) : (smooth_runs){0};
+    const uint32_t longest = any_sharp ? longest_smooth_run(star, last.ends[0]) : 0;
     switch (last.rule) {
     case LIMNI_VERTEX_SMOOTH:
         return true;
     case LIMNI_VERTEX_CREASE:
-        return runs.most < 3 && (runs.least == 2 || !star->edges);
+        return longest < 3;
     case LIMNI_VERTEX_CORNER:
-        return any_sharp && runs.most == 0;
+        return any_sharp && longest == 0;
     default:
         return false;
     }
