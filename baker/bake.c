@@ -12,7 +12,7 @@
 struct limn_baker {
     limni_context context;
     limni_rules rules;
-    limni_classes classes;
+    limni_classes classes, pieces;
     limni_patches *meshes;
     uint32_t mesh_count, mesh_capacity;
     limn_bake_status failed; ///< the first error: after it nothing can be trusted
@@ -28,7 +28,8 @@ limn_baker *limn_baker_create(const limn_bake_desc *desc) {
                                  .boundary = baker->context.desc.boundary,
                                  .creases = baker->context.desc.creases,
                                  .creasing = baker->context.desc.creasing,
-                                 .normals = baker->context.desc.normals};
+                                 .normals = baker->context.desc.normals,
+                                 .isolate = baker->context.desc.isolate};
     return baker;
 }
 
@@ -120,7 +121,7 @@ static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     LIMNI_TRY(limni_mesh_build(context, source, &mesh));
     const limni_rules rules = rules_for(&baker->rules, &mesh);
     LIMNI_TRY(apply_rules(context, &rules, &mesh));
-    LIMNI_TRY(limni_patches_build(context, &mesh, &rules, &baker->classes,
+    LIMNI_TRY(limni_patches_build(context, &mesh, &rules, &baker->classes, &baker->pieces,
                                   &baker->meshes[baker->mesh_count]));
     baker->mesh_count++;
     release_source(context, source);
@@ -247,8 +248,9 @@ limn_bake_status limn_baker_finish(limn_baker *baker, const void **blob, size_t 
     if (baker->mesh_count == 0)
         return limni_fail(&baker->context, LIMN_BAKE_BAD_INPUT, "there is no mesh to bake");
     if (!baker->blob)
-        LIMNI_TRY(limni_write_blob(&baker->context, &baker->rules, &baker->classes, baker->meshes,
-                                   baker->mesh_count, &baker->blob, &baker->blob_size));
+        LIMNI_TRY(limni_write_blob(&baker->context, &baker->rules, &baker->classes, &baker->pieces,
+                                   baker->meshes, baker->mesh_count, &baker->blob,
+                                   &baker->blob_size));
     *blob = baker->blob;
     *blob_size = baker->blob_size;
     return LIMN_BAKE_OK;

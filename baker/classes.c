@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "classes.h"
 
-#include "../runtime/domain.h"
 #include "hash.h"
 #include "limn/limn.h"
 #include "mirror.h"
@@ -10,15 +9,17 @@
 
 // ---- Dictionaries
 
-static uint64_t key_hash(const uint32_t *words, uint32_t size) {
-    uint64_t hash = size;
+static uint64_t key_hash(limni_table_kind kind, const uint32_t *words, uint32_t size) {
+    uint64_t hash = 3 * (uint64_t)size + kind;
     for (uint32_t w = 0; w < size; w++)
         hash = limni_hash_mix(hash, words[w]);
     return hash;
 }
 
-static uint64_t table_hash(const limni_class *class) {
+static uint64_t class_hash(const limni_class *class) {
     uint64_t hash = class->control_count;
+    for (size_t w = 0; class->parts && w < limni_class_parts_size(class) / sizeof(uint16_t); w++)
+        hash = limni_hash_mix(hash, class->parts[w]);
     for (size_t f = 0; f < limni_class_table_size(class) / sizeof(float); f++) {
         uint32_t bits;
         memcpy(&bits, &class->table[f], sizeof bits);
@@ -28,26 +29,34 @@ static uint64_t table_hash(const limni_class *class) {
 }
 
 /// Where a key is in the dictionary, or where it would go.
-static uint32_t *find_key(const limni_classes *classes, const uint32_t *words, uint32_t size) {
+static uint32_t *find_key(const limni_classes *classes, limni_table_kind kind,
+                          const uint32_t *words, uint32_t size) {
     const limni_index_table *const table = &classes->by_key;
-    uint32_t at = (uint32_t)key_hash(words, size) & (table->size - 1);
+    uint32_t at = (uint32_t)key_hash(kind, words, size) & (table->size - 1);
     for (; table->indices[at] != LIMNI_NONE; at = (at + 1) & (table->size - 1)) {
         const limni_class_key *const key = &classes->keys[table->indices[at]];
-        if (key->size == size && memcmp(key->words, words, size * sizeof *words) == 0) break;
+        if (key->kind == kind && key->size == size &&
+            memcmp(key->words, words, size * sizeof *words) == 0)
+            break;
     }
     return &table->indices[at];
 }
 
-/// Where an equal table is in the dictionary, or where this one would go.
-static uint32_t *find_table(const limni_classes *classes, const limni_class *class) {
+static bool are_equal(const limni_class *a, const limni_class *b) {
+    if (a->kind != b->kind || a->control_count != b->control_count ||
+        a->table_count != b->table_count || a->pair_count != b->pair_count ||
+        !a->parts != !b->parts)
+        return false;
+    return a->parts ? memcmp(a->parts, b->parts, limni_class_parts_size(a)) == 0
+                    : memcmp(a->table, b->table, limni_class_table_size(a)) == 0;
+}
+
+/// Where an equal class is in the dictionary, or where this one would go.
+static uint32_t *find_class(const limni_classes *classes, const limni_class *class) {
     const limni_index_table *const table = &classes->by_table;
-    uint32_t at = (uint32_t)table_hash(class) & (table->size - 1);
+    uint32_t at = (uint32_t)class_hash(class) & (table->size - 1);
     for (; table->indices[at] != LIMNI_NONE; at = (at + 1) & (table->size - 1)) {
-        const limni_class *const other = &classes->items[table->indices[at]];
-        if (other->control_count == class->control_count &&
-            other->pair_count == class->pair_count &&
-            memcmp(other->table, class->table, limni_class_table_size(class)) == 0)
-            break;
+        if (are_equal(&classes->items[table->indices[at]], class)) break;
     }
     return &table->indices[at];
 }
@@ -74,9 +83,9 @@ static limn_bake_status grow(limni_context *context, limni_classes *classes) {
     LIMNI_TRY(clear_table(context, capacity, &classes->by_key));
     LIMNI_TRY(clear_table(context, capacity, &classes->by_table));
     for (uint32_t k = 0; k < classes->key_count; k++)
-        *find_key(classes, keys[k].words, keys[k].size) = k;
+        *find_key(classes, keys[k].kind, keys[k].words, keys[k].size) = k;
     for (uint32_t c = 0; c < classes->count; c++)
-        *find_table(classes, &items[c]) = c;
+        *find_class(classes, &items[c]) = c;
     return LIMN_BAKE_OK;
 }
 
@@ -86,6 +95,8 @@ enum { ROW_COUNT = 153 };
 
 /// What a class is made from.
 typedef struct class_maker {
+    limni_table_kind kind;
+    int depth;
     limni_coefficients coefficients;
     limni_fixed *rows;      ///< the same
     bool *used;             ///< [slot_count] whether it has a column
@@ -96,8 +107,8 @@ typedef struct class_maker {
 
 /// Adds one column along one edge to a hash. Read against the edge, `negated` turns the signs.
 static uint64_t print_column(uint64_t hash, const float *column, const uint16_t *edge_rows,
-                             bool along, bool negated, bool *any) {
-    for (uint32_t t = 0; t <= LIMN_GRID_SIZE; t++) {
+                             uint32_t first, uint32_t step, bool along, bool negated, bool *any) {
+    for (uint32_t t = first; t <= LIMN_GRID_SIZE - first; t += step) {
         const float value = column[edge_rows[along ? t : LIMN_GRID_SIZE - t]];
         const float seen = value != 0 && negated ? -value : value;
         uint32_t bits;
@@ -111,16 +122,18 @@ static uint64_t print_column(uint64_t hash, const float *column, const uint16_t 
 /// The columns of one slot, a row each, for all tables.
 typedef float slot_columns[3][ROW_COUNT];
 
-/// The columns of a slot along one edge. The neighbour has the positions in the opposite order, and
-/// the tangents with the opposite sign as well.
-static limni_edge_print print_edge(float (*columns)[ROW_COUNT], uint32_t table_count, uint32_t edge,
-                                   bool along) {
+/// The columns of a slot along one edge, in grid steps of the depth. The neighbour has the positions
+/// in the opposite order, and the tangents with the opposite sign as well; they are not those of
+/// corners.
+static limni_edge_print print_edge(float (*columns)[ROW_COUNT], uint32_t table_count, uint32_t step,
+                                   uint32_t edge, bool along) {
     const uint16_t *const rows = limn_domain_get(LIMN_DOMAIN_TRIANGLE)->edge_rows[edge];
     bool any = false, any_tangent = false;
-    limni_edge_print print = {.positions = print_column(0, columns[0], rows, along, false, &any)};
+    limni_edge_print print = {.positions =
+                                  print_column(0, columns[0], rows, 0, step, along, false, &any)};
     for (uint32_t table = 1; table < table_count; table++)
-        print.tangents =
-            print_column(print.tangents, columns[table], rows, along, !along, &any_tangent);
+        print.tangents = print_column(print.tangents, columns[table], rows, step, step, along,
+                                      !along, &any_tangent);
     if (!any) print.positions = 0;
     if (!any_tangent) print.tangents = 0;
     return print;
@@ -165,9 +178,22 @@ static float pair_value(const class_maker *maker, uint32_t table, uint32_t row, 
     return limni_fixed_to_float(own);
 }
 
+static const limni_piece_layout *piece_layout_of(limni_table_kind kind, bool tangents) {
+    const limni_pieces *const pieces = limni_pieces_get(LIMN_DOMAIN_TRIANGLE);
+    return &(tangents ? pieces->tangents : pieces->positions)[kind - LIMNI_TABLE_CORNER];
+}
+
 /// What pads a column stays zero.
-static void fill_column(const class_maker *maker, uint32_t table, uint32_t slot,
-                        const float rows[ROW_COUNT], float *column) {
+static void fill_piece_column(const class_maker *maker, uint32_t table, const float rows[ROW_COUNT],
+                              float *column) {
+    const limni_piece_layout *const layout = piece_layout_of(maker->kind, table > 0);
+    for (uint32_t place = 0; place < layout->row_stride; place++) {
+        if (layout->rows[place] != LIMNI_NO_ROW) column[place] = rows[layout->rows[place]];
+    }
+}
+
+static void fill_patch_column(const class_maker *maker, uint32_t table, uint32_t slot,
+                              const float rows[ROW_COUNT], float *column) {
     const limni_layout *const layout =
         limni_layout_get(LIMN_DOMAIN_TRIANGLE, table > 0, maker->pair_count);
     for (uint32_t place = 0; place < layout->row_stride; place++) {
@@ -185,35 +211,75 @@ static void fill_slot(const class_maker *maker, uint32_t slot, uint32_t column_i
     for (uint32_t table = 0; table < class->table_count; table++) {
         float *const column = class->table + ((size_t)table * class->control_count + column_index) *
                                                  class->row_stride;
-        for (uint32_t row = 0; row < ROW_COUNT; row++)
+        for (uint32_t row = 0; row < maker->coefficients.row_count; row++)
             rows[table][row] =
                 limni_fixed_to_float(limni_coefficient(&maker->coefficients, table, row, slot));
-        fill_column(maker, table, slot, rows[table], column);
+        if (maker->kind == LIMNI_TABLE_PATCH) {
+            fill_patch_column(maker, table, slot, rows[table], column);
+        } else {
+            fill_piece_column(maker, table, rows[table], column);
+        }
     }
+    const uint32_t step = LIMN_GRID_SIZE >> maker->depth;
     for (uint32_t edge = 0; edge < 3; edge++) {
         limni_edge_prints *const prints = &class->prints[column_index];
-        prints->along[edge] = print_edge(rows, class->table_count, edge, true);
-        prints->against[edge] = print_edge(rows, class->table_count, edge, false);
+        prints->along[edge] = print_edge(rows, class->table_count, step, edge, true);
+        prints->against[edge] = print_edge(rows, class->table_count, step, edge, false);
     }
 }
 
+/// The far end of the half edge that starts at the corner of a piece is new, and has tangents, which
+/// go on along the edge.
+static limn_bake_status add_end_tangents(limni_context *context, const limni_rules *rules,
+                                         const limni_neighbourhood *neighbourhood,
+                                         limni_fixed *tangents, size_t table_size) {
+    const limni_star *const star = &neighbourhood->corners[1];
+    const uint32_t slot_count = neighbourhood->control_count;
+    limni_fixed *const masks =
+        limni_allocate(context, 2 * (1 + (size_t)star->count), sizeof *masks);
+    if (!masks) return LIMN_BAKE_MEMORY;
+    limni_fixed *const along = masks, *const across = masks + 1 + star->count;
+    uint32_t start = 0; // corner 0
+    while (star->ring[start] != 0)
+        start++;
+    LIMNI_TRY(
+        limni_star_tangents(context, rules, star, limni_star_opposite(star, start), along, across));
+    for (uint32_t table = 0; table < 2; table++) {
+        limni_fixed *const row = tangents + table * table_size + slot_count; // row 1
+        const limni_fixed *const mask = table ? across : along;
+        row[1] = mask[0];
+        for (uint32_t r = 0; r < star->count; r++)
+            row[star->ring[r]] += mask[1 + r];
+    }
+    limni_release(context, masks);
+    return LIMN_BAKE_OK;
+}
+
 static limn_bake_status begin_class(limni_context *context, const limni_rules *rules,
-                                    const limni_neighbourhood *neighbourhood, class_maker *maker) {
+                                    const limni_neighbourhood *neighbourhood, limni_table_kind kind,
+                                    class_maker *maker) {
     const uint32_t slot_count = neighbourhood->control_count;
     const uint32_t table_count = rules->normals == LIMN_NORMALS_EXACT ? 3 : 1;
-    limni_fixed *const rows =
-        limni_allocate(context, (size_t)table_count * ROW_COUNT * slot_count, sizeof *rows);
-    *maker = (class_maker){.coefficients = {.rows = rows,
+    const int depth = kind == LIMNI_TABLE_PATCH ? LIMN_LEVEL_MAX : LIMN_LEVEL_MAX - 1;
+    const uint32_t row_count = limn_domain_get(LIMN_DOMAIN_TRIANGLE)->row_counts[depth];
+    const size_t table_size = (size_t)row_count * slot_count;
+    limni_fixed *const rows = limni_allocate(context, table_count * table_size, sizeof *rows);
+    *maker = (class_maker){.kind = kind,
+                           .depth = depth,
+                           .coefficients = {.rows = rows,
                                             .table_count = table_count,
-                                            .row_count = ROW_COUNT,
+                                            .row_count = row_count,
                                             .slot_count = slot_count},
                            .rows = rows,
                            .used = limni_allocate(context, slot_count, sizeof *maker->used),
                            .images = limni_allocate(context, slot_count, sizeof *maker->images)};
     if (!rows || !maker->used || !maker->images) return LIMN_BAKE_MEMORY;
-    limni_fixed *const tangents = table_count == 3 ? rows + (size_t)ROW_COUNT * slot_count : NULL;
-    return limni_subdivide(context, rules, neighbourhood, LIMN_LEVEL_MAX, LIMNI_PROJECT_TO_LIMIT,
-                           rows, tangents);
+    limni_fixed *const tangents = table_count == 3 ? rows + table_size : NULL;
+    LIMNI_TRY(limni_subdivide(context, rules, neighbourhood, depth, LIMNI_PROJECT_TO_LIMIT, rows,
+                              tangents));
+    return tangents && kind == LIMNI_TABLE_CORNER
+               ? add_end_tangents(context, rules, neighbourhood, tangents, table_size)
+               : LIMN_BAKE_OK;
 }
 
 static void end_class(limni_context *context, class_maker *maker) {
@@ -224,16 +290,20 @@ static void end_class(limni_context *context, class_maker *maker) {
 
 /// Computes the tables of a local base, and which slot has which column.
 static limn_bake_status make_class(limni_context *context, const limni_rules *rules,
-                                   const limni_neighbourhood *neighbourhood, uint16_t *columns,
-                                   limni_class *class) {
+                                   const limni_neighbourhood *neighbourhood, limni_table_kind kind,
+                                   uint16_t *columns, limni_class *class) {
     class_maker maker;
-    LIMNI_TRY(begin_class(context, rules, neighbourhood, &maker));
+    LIMNI_TRY(begin_class(context, rules, neighbourhood, kind, &maker));
     find_used(&maker.coefficients, maker.used);
-    maker.pair_count = limni_find_mirror(&maker.coefficients, maker.used, maker.images);
+    if (kind == LIMNI_TABLE_PATCH)
+        maker.pair_count = limni_find_mirror(&maker.coefficients, maker.used, maker.images);
     number_columns(&maker, columns);
     const uint32_t row_stride =
-        limni_layout_get(LIMN_DOMAIN_TRIANGLE, false, maker.pair_count)->row_stride;
-    *class = (limni_class){.control_count = maker.control_count,
+        kind == LIMNI_TABLE_PATCH
+            ? limni_layout_get(LIMN_DOMAIN_TRIANGLE, false, maker.pair_count)->row_stride
+            : piece_layout_of(kind, false)->row_stride;
+    *class = (limni_class){.kind = kind,
+                           .control_count = maker.control_count,
                            .pair_count = maker.pair_count,
                            .table_count = maker.coefficients.table_count,
                            .row_stride = row_stride};
@@ -253,10 +323,19 @@ static limn_bake_status make_class(limni_context *context, const limni_rules *ru
 
 // ---- Keys
 
+/// For one more of each.
+static limn_bake_status make_room(limni_context *context, limni_classes *classes) {
+    const bool full =
+        classes->key_count == classes->capacity || classes->count == classes->capacity;
+    return full ? grow(context, classes) : LIMN_BAKE_OK;
+}
+
 static limn_bake_status add_key(limni_context *context, limni_classes *classes,
-                                const limni_rules *rules, const limni_local_base *base) {
+                                const limni_rules *rules, const limni_local_base *base,
+                                limni_table_kind kind) {
     limni_class_key *const key = &classes->keys[classes->key_count];
     *key = (limni_class_key){
+        .kind = kind,
         .words = limni_allocate(context, base->key_size, sizeof *key->words),
         .size = base->key_size,
         .slots = limni_allocate(context, base->neighbourhood.control_count, sizeof *key->slots),
@@ -265,8 +344,8 @@ static limn_bake_status add_key(limni_context *context, limni_classes *classes,
     memcpy(key->words, base->key, base->key_size * sizeof *key->words);
 
     limni_class *const made = &classes->items[classes->count];
-    LIMNI_TRY(make_class(context, rules, &base->neighbourhood, key->slots, made));
-    uint32_t *const place = find_table(classes, made);
+    LIMNI_TRY(make_class(context, rules, &base->neighbourhood, kind, key->slots, made));
+    uint32_t *const place = find_class(classes, made);
     if (*place == LIMNI_NONE) {
         *place = classes->count++;
     } else {
@@ -280,22 +359,45 @@ static limn_bake_status add_key(limni_context *context, limni_classes *classes,
 
 limn_bake_status limni_classes_find(limni_context *context, limni_classes *classes,
                                     const limni_rules *rules, const limni_local_base *base,
-                                    uint32_t *key_index) {
-    if (classes->key_count == classes->capacity) LIMNI_TRY(grow(context, classes));
-    uint32_t *const place = find_key(classes, base->key, base->key_size);
+                                    limni_table_kind kind, uint32_t *key_index) {
+    LIMNI_TRY(make_room(context, classes));
+    uint32_t *const place = find_key(classes, kind, base->key, base->key_size);
     if (*place == LIMNI_NONE) {
-        LIMNI_TRY(add_key(context, classes, rules, base));
+        LIMNI_TRY(add_key(context, classes, rules, base, kind));
         *place = classes->key_count - 1;
     }
     *key_index = *place;
     return LIMN_BAKE_OK;
 }
 
+limn_bake_status limni_classes_find_parts(limni_context *context, limni_classes *classes,
+                                          const limni_class *class, uint32_t *class_index) {
+    LIMNI_TRY(make_room(context, classes));
+    uint32_t *const place = find_class(classes, class);
+    if (*place == LIMNI_NONE) {
+        limni_class *const made = &classes->items[classes->count];
+        const size_t size = limni_class_parts_size(class);
+        *made = *class;
+        made->parts = limni_allocate(context, size, 1);
+        if (!made->parts) return LIMN_BAKE_MEMORY;
+        memcpy(made->parts, class->parts, size);
+        *place = classes->count++;
+    }
+    *class_index = *place;
+    return LIMN_BAKE_OK;
+}
+
+limn_file_piece limni_piece_record(const limni_class *piece) {
+    return (limn_file_piece){.control_count = piece->control_count,
+                             .kind = (uint16_t)(piece->kind - LIMNI_TABLE_CORNER),
+                             .table_count = (uint16_t)piece->table_count};
+}
+
 limn_file_class limni_class_record(const limni_class *class) {
     limn_file_class record = {
         .control_count = class->control_count,
         .domain = LIMN_DOMAIN_TRIANGLE,
-        .depth = LIMN_LEVEL_MAX,
+        .depth = class->parts ? LIMN_FORMAT_PIECE_DEPTH : LIMN_FORMAT_DEPTH,
         .boundary_corners = class->boundary_corners,
         .table_count = (uint16_t) class->table_count,
         .pair_count = (uint16_t) class->pair_count,

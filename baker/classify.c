@@ -24,21 +24,22 @@ static limn_bake_status allocate_base(limni_context *context, limni_local_base *
 }
 
 limn_bake_status limni_classifier_begin(limni_context *context, limni_classifier *classifier,
-                                        const limni_mesh *mesh, const limni_rules *rules) {
+                                        const limni_mesh *mesh,
+                                        const limni_mesh_sharpness *sharpness,
+                                        const limni_rules *rules) {
     *classifier = (limni_classifier){
         .mesh = mesh,
+        .sharpness = sharpness,
         .rules = rules,
         .slots = limni_allocate(context, mesh->control_count, sizeof(uint32_t)),
         .marks = limni_allocate_zeroed(context, mesh->control_count, sizeof(uint32_t)),
     };
     if (!classifier->slots || !classifier->marks) return LIMN_BAKE_MEMORY;
-    LIMNI_TRY(limni_mesh_sharpness_begin(context, mesh, rules, &classifier->sharpness));
     LIMNI_TRY(allocate_base(context, &classifier->bases[0]));
     return allocate_base(context, &classifier->bases[1]);
 }
 
 void limni_classifier_end(limni_context *context, limni_classifier *classifier) {
-    limni_mesh_sharpness_end(context, &classifier->sharpness);
     limni_release(context, classifier->slots);
     limni_release(context, classifier->marks);
     for (int b = 0; b < 2; b++) {
@@ -65,7 +66,7 @@ static uint32_t slot_of(limni_classifier *classifier, limni_local_base *base, ui
 /// at the boundary.
 static void walk_ring(limni_classifier *classifier, limni_local_base *base, uint32_t half_edge,
                       limni_star *star) {
-    limni_mesh_star(classifier->mesh, &classifier->sharpness, classifier->rules, half_edge, star);
+    limni_mesh_star(classifier->mesh, classifier->sharpness, classifier->rules, half_edge, star);
     for (uint32_t r = 0; r < star->count; r++)
         star->ring[r] = slot_of(classifier, base, star->ring[r]);
 }

@@ -33,7 +33,7 @@ typedef struct limni_local_base {
 typedef struct limni_classifier {
     const limni_mesh *mesh;
     const limni_rules *rules;
-    limni_mesh_sharpness sharpness;
+    const limni_mesh_sharpness *sharpness;
     uint32_t *slots; ///< [control_count] the slot of a control point, valid where marks match
     uint32_t *marks; ///< [control_count]
     uint32_t mark;   ///< of the current local base
@@ -41,7 +41,9 @@ typedef struct limni_classifier {
 } limni_classifier;
 
 limn_bake_status limni_classifier_begin(limni_context *context, limni_classifier *classifier,
-                                        const limni_mesh *mesh, const limni_rules *rules);
+                                        const limni_mesh *mesh,
+                                        const limni_mesh_sharpness *sharpness,
+                                        const limni_rules *rules);
 void limni_classifier_end(limni_context *context, limni_classifier *classifier);
 
 /// The local base of a face in its canonical rotation; NULL with an error when it is too large.

@@ -30,6 +30,8 @@ static const char help[] =
     "asks\n"
     "                        for (t creasemethod in OBJ), otherwise uniform\n"
     "      --normals NAME    none (default), or exact: store tangents of the limit surface\n"
+    "      --isolate 0|1     1: evaluate the points of one level of subdivision first, and patches in\n"
+    "                        four pieces: few, small tables for any mesh. Default: 0\n"
     "      --repair[=STEPS]  mend what would be refused, and say so; STEPS of, separated by "
     "commas:\n"
     "                        weld   merge control points whose positions are equal\n"
@@ -80,6 +82,7 @@ enum {
     OPTION_CREASES,
     OPTION_CREASING,
     OPTION_NORMALS,
+    OPTION_ISOLATE,
     OPTION_REPAIR
 };
 
@@ -90,6 +93,7 @@ static const struct option options[] = {
     {"creases", required_argument, NULL, OPTION_CREASES},
     {"creasing", required_argument, NULL, OPTION_CREASING},
     {"normals", required_argument, NULL, OPTION_NORMALS},
+    {"isolate", required_argument, NULL, OPTION_ISOLATE},
     {"repair", optional_argument, NULL, OPTION_REPAIR},
     {"quiet", no_argument, NULL, 'q'},
     {"help", no_argument, NULL, 'h'},
@@ -108,6 +112,8 @@ static const choice boundaries = {{"edge-only", "edge-and-corner", "none"},
 static const choice creases = {{"opensubdiv", "lomont"}, "there are no crease rules '%s'"};
 static const choice creasings = {{"uniform", "chaikin"}, "there is no creasing method '%s'"};
 static const choice normals = {{"none", "exact"}, "there are no normals '%s'"};
+
+static const choice isolations = {{"0", "1"}, "cannot isolate '%s'"};
 
 /// Sets *chosen to `first` for the first name, and so on.
 static int choose(const choice *from, int first, int *chosen) {
@@ -145,6 +151,10 @@ static int parse_option(int option, arguments *given) {
     case OPTION_NORMALS:
         status = choose(&normals, LIMN_NORMALS_NONE, &chosen);
         desc->normals = (limn_normals)chosen;
+        return status;
+    case OPTION_ISOLATE:
+        status = choose(&isolations, LIMN_ISOLATE_NEVER, &chosen);
+        desc->isolate = (limn_isolate)chosen;
         return status;
     case OPTION_REPAIR:
         if (!limni_parse_repair(optarg, &given->desc.repair))

@@ -14,15 +14,18 @@ static const char help[] =
     "Says what is in a .limn file: its meshes, and the topology classes with their stencil "
     "tables.\n\n"
     "  --json       as JSON, with the keys\n"
-    "                 file.{version,size,table_size,class_count,bake}\n"
+    "                 file.{version,size,table_size,columns_size,class_count,piece_count,bake}\n"
     "                 "
-    "meshes[].{name,faces,control_points,patches,patch_size,bytes_per_face,normals_size,\n"
-    "                           class_count,edge_errors}\n"
+    "meshes[].{name,faces,control_points,patches,patch_size,bytes_per_face,points,\n"
+    "                           points_size,normals_size,class_count,edge_errors}\n"
     "                 "
     "classes[].{control_points,pairs,table_size,use_count,valences,boundary_corners}\n"
     "  -h, --help   this text\n\n"
     "Sizes are in bytes. patch_size is what a mesh stores for its patches (runs, faces, control\n"
     "indices, slots, errors); the tables are shared by all meshes and counted in table_size.\n"
+    "In isolated meshes, points and points_size are the control points with those of level 1, and\n"
+    "what the latter and their stencils take; classes are then made of pieces, which have the\n"
+    "tables, and columns_size says how.\n"
     "edge_errors are how far levels 0 to 3 are off the limit surface around an edge, in lengths "
     "of\n"
     "the edge: the medians of a mesh.\n"
@@ -88,7 +91,28 @@ static uint64_t total_table_size(const limn_pack *pack) {
     uint64_t size = 0;
     for (uint32_t c = 0; c < pack->class_count; c++)
         size += table_size(&pack->classes[c]);
+    for (uint32_t p = 0; p < pack->piece_count; p++)
+        size += limn_file_piece_table_size(&pack->pieces[p]) * sizeof(float);
     return size;
+}
+
+/// Bytes of the columns of classes that are in pieces.
+static uint64_t total_columns_size(const limn_pack *pack) {
+    uint64_t size = 0;
+    for (uint32_t c = 0; c < pack->class_count; c++) {
+        if (pack->classes[c].depth == LIMN_FORMAT_PIECE_DEPTH)
+            size += LIMN_FORMAT_PIECE_COUNT * (1 + (uint64_t)pack->classes[c].control_count) *
+                    sizeof(uint16_t);
+    }
+    return size;
+}
+
+/// Bytes of the points of level 1 of an isolated mesh, in the bind pose, and of their stencils.
+static uint64_t points_size(const limn_mesh *mesh) {
+    const uint64_t count = mesh->point_count - mesh->control_count;
+    if (count == 0) return 0;
+    return count * 3 * sizeof *mesh->controls + (1 + count) * sizeof *mesh->stencils +
+           mesh->stencils[count] * sizeof *mesh->terms;
 }
 
 /// A string; of one that is not UTF-8, as file names may be, only the ASCII remains.
@@ -111,7 +135,9 @@ static json_t *describe_file(const limn_pack *pack) {
     json_object_set_new(file, "version", json_integer(LIMN_FORMAT_VERSION));
     json_object_set_new(file, "size", json_size(pack->blob_size));
     json_object_set_new(file, "table_size", json_size(total_table_size(pack)));
+    json_object_set_new(file, "columns_size", json_size(total_columns_size(pack)));
     json_object_set_new(file, "class_count", json_integer(pack->class_count));
+    json_object_set_new(file, "piece_count", json_integer(pack->piece_count));
     json_object_set_new(file, "bake", json_text(pack->info));
     return file;
 }
@@ -126,6 +152,8 @@ static json_t *describe_mesh(const limn_mesh *mesh) {
     json_object_set_new(object, "patch_size", json_size(size));
     json_object_set_new(object, "bytes_per_face",
                         json_real(mesh->patch_count ? (double)size / mesh->patch_count : 0));
+    json_object_set_new(object, "points", json_integer(mesh->point_count));
+    json_object_set_new(object, "points_size", json_size(points_size(mesh)));
     json_object_set_new(object, "normals_size", json_size(normals_size(mesh)));
     json_object_set_new(object, "class_count", json_integer(mesh->run_count));
     double medians[LIMN_LEVEL_MAX];
@@ -200,15 +228,19 @@ static void print_text(const char *path, const limn_pack *pack) {
     printf("%s: version %u, %zu bytes, of which %llu in the tables of %u classes\n", path,
            LIMN_FORMAT_VERSION, pack->blob_size, (unsigned long long)total_table_size(pack),
            pack->class_count);
+    if (pack->piece_count)
+        printf("which are made of %u pieces, with %llu bytes for their columns\n",
+               pack->piece_count, (unsigned long long)total_columns_size(pack));
     printf("baked with %s\n\n", pack->info);
-    printf("%-24s %10s %10s %12s %10s %8s\n", "mesh", "faces", "controls", "patch bytes",
-           "bytes/face", "classes");
+    printf("%-24s %10s %10s %12s %10s %12s %8s\n", "mesh", "faces", "controls", "patch bytes",
+           "bytes/face", "point bytes", "classes");
     for (uint32_t m = 0; m < pack->mesh_count; m++) {
         const limn_mesh mesh = limn_pack_mesh(pack, m);
         const uint64_t size = patch_size(&mesh);
-        printf("%-24s %10u %10u %12llu %10.1f %8u\n", mesh.name, mesh.face_count,
+        printf("%-24s %10u %10u %12llu %10.1f %12llu %8u\n", mesh.name, mesh.face_count,
                mesh.control_count, (unsigned long long)size,
-               mesh.patch_count ? (double)size / mesh.patch_count : 0, mesh.run_count);
+               mesh.patch_count ? (double)size / mesh.patch_count : 0,
+               (unsigned long long)points_size(&mesh), mesh.run_count);
     }
     print_errors(pack);
     printf("\n%6s  %-14s %14s %10s %10s\n", "class", "valences", "control points", "bytes",

@@ -29,6 +29,9 @@ typedef struct measurer {
     limn_mesh view;
     limn_file_run part;
     limn_file_class record;
+    limn_file_piece pieces[LIMNI_PIECE_COUNT];
+    float *tables;     ///< of the pieces, one behind the other; NULL: the class has a table
+    uint16_t *columns; ///< as a class has them
     float points[BATCH * ROWS][3];
     uint32_t next_progress; ///< patches
 } measurer;
@@ -38,8 +41,9 @@ static void begin_measurer(measurer *m, const limni_mesh *mesh, const limni_patc
     limni_ruler_begin(&m->ruler, domain);
     m->next_progress = 0;
     m->view = (limn_mesh){.domain = domain,
-                          .controls = mesh->controls[0],
+                          .controls = patches->controls[0],
                           .control_count = mesh->control_count,
+                          .point_count = patches->record.point_count,
                           .run_count = 1,
                           .indices = patches->indices,
                           .slots = patches->slots,
@@ -69,12 +73,48 @@ static void show_progress(limni_context *context, measurer *m, uint32_t done, ui
     m->next_progress = done + total / 200 + 1;
 }
 
-static void measure_run(limni_context *context, measurer *m, const limn_file_run *run,
-                        const limni_class *class, const limni_patches *patches,
-                        edge_error *errors) {
-    const uint64_t batch = (uint64_t)BATCH * class->control_count;
+/// The pieces of a class as those of a file of its own.
+static limn_bake_status copy_pieces(limni_context *context, measurer *m, const limni_class *class,
+                                    const limni_classes *pieces) {
+    const size_t parts_size = limni_class_parts_size(class);
+    size_t size = 0;
+    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++) {
+        const limni_class *const piece = &pieces->items[class->parts[p]];
+        m->pieces[p] = limni_piece_record(piece);
+        m->pieces[p].table_offset = size;
+        size += limni_class_table_size(piece);
+    }
+    m->tables = limni_allocate(context, size, 1);
+    m->columns = limni_allocate(context, parts_size, 1);
+    if (!m->tables || !m->columns) return LIMN_BAKE_MEMORY;
+    memcpy(m->columns, class->parts, parts_size);
+    for (uint16_t p = 0; p < LIMNI_PIECE_COUNT; p++) {
+        const limni_class *const piece = &pieces->items[class->parts[p]];
+        memcpy((unsigned char *)m->tables + m->pieces[p].table_offset, piece->table,
+               limni_class_table_size(piece));
+        m->columns[p] = p;
+    }
+    m->view.tables = m->tables;
+    m->view.pieces = m->pieces;
+    m->view.columns = m->columns;
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status view_class(limni_context *context, measurer *m, const limni_class *class,
+                                   const limni_classes *pieces) {
     m->record = limni_class_record(class);
+    limni_release(context, m->tables);
+    limni_release(context, m->columns);
+    m->tables = NULL;
+    m->columns = NULL;
+    if (class->parts) return copy_pieces(context, m, class, pieces);
     m->view.tables = class->table;
+    return LIMN_BAKE_OK;
+}
+
+static void measure_run(limni_context *context, measurer *m, const limn_file_run *run,
+                        const limni_patches *patches, edge_error *errors) {
+    const uint64_t batch = (uint64_t)BATCH * m->record.control_count;
     for (uint32_t begin = 0; begin < run->patch_count; begin += BATCH) {
         const uint32_t rest = run->patch_count - begin, first = run->first_patch + begin;
         show_progress(context, m, first, patches->record.patch_count);
@@ -89,16 +129,19 @@ static void measure_run(limni_context *context, measurer *m, const limn_file_run
 }
 
 static limn_bake_status measure(limni_context *context, const limni_mesh *mesh,
-                                const limni_classes *classes, const limni_patches *patches,
-                                edge_error *errors) {
-    measurer *const m = limni_allocate(context, 1, sizeof *m);
+                                const limni_classes *classes, const limni_classes *pieces,
+                                const limni_patches *patches, edge_error *errors) {
+    measurer *const m = limni_allocate_zeroed(context, 1, sizeof *m);
     if (!m) return LIMN_BAKE_MEMORY;
     begin_measurer(m, mesh, patches);
     for (uint32_t r = 0; r < patches->record.run_count; r++) {
         const limn_file_run *const run = &patches->runs[r];
-        measure_run(context, m, run, &classes->items[run->class_index], patches, errors);
+        LIMNI_TRY(view_class(context, m, &classes->items[run->class_index], pieces));
+        measure_run(context, m, run, patches, errors);
     }
     limni_progress(context, "measure", patches->record.patch_count, patches->record.patch_count);
+    limni_release(context, m->tables);
+    limni_release(context, m->columns);
     limni_release(context, m);
     return LIMN_BAKE_OK;
 }
@@ -146,9 +189,9 @@ static void make_relative(double length, edge_error *error) {
     }
 }
 
-static double edge_length(const limni_mesh *mesh, uint32_t h) {
-    const float *const a = mesh->controls[limni_half_edge_start(mesh, h)];
-    const float *const b = mesh->controls[limni_half_edge_end(mesh, h)];
+static double edge_length(const limni_mesh *mesh, const float (*controls)[3], uint32_t h) {
+    const float *const a = controls[limni_half_edge_start(mesh, h)];
+    const float *const b = controls[limni_half_edge_end(mesh, h)];
     double square = 0;
     for (int axis = 0; axis < 3; axis++)
         square += ((double)a[axis] - (double)b[axis]) * ((double)a[axis] - (double)b[axis]);
@@ -156,30 +199,32 @@ static double edge_length(const limni_mesh *mesh, uint32_t h) {
 }
 
 /// Both sides of an edge get the same. What happens in a hole does not show.
-static uint16_t encode_edge(const limni_mesh *mesh, uint32_t h, const edge_error *errors) {
+static uint16_t encode_edge(const limni_mesh *mesh, const float (*controls)[3], uint32_t h,
+                            const edge_error *errors) {
     edge_error both;
     const uint32_t pair = mesh->pairs[h] == LIMNI_NONE ? h : mesh->pairs[h];
     for (uint32_t level = 0; level < LIMN_LEVEL_MAX; level++) {
         const double one = errors[h].levels[level], other = errors[pair].levels[level];
         both.levels[level] = one > other ? one : other;
     }
-    make_relative(edge_length(mesh, h), &both);
+    make_relative(edge_length(mesh, controls, h), &both);
     return encode(&both);
 }
 
 limn_bake_status limni_edge_errors_build(limni_context *context, const limni_mesh *mesh,
-                                         const limni_classes *classes, limni_patches *patches) {
+                                         const limni_classes *classes, const limni_classes *pieces,
+                                         limni_patches *patches) {
     const size_t count = 3 * (size_t)mesh->face_count;
     const uint32_t patch_count = patches->record.patch_count;
     edge_error *const errors = limni_allocate_zeroed(context, count, sizeof *errors);
     patches->errors = limni_allocate(context, 3 * (size_t)patch_count, sizeof *patches->errors);
     if (!errors || !patches->errors) return LIMN_BAKE_MEMORY;
-    LIMNI_TRY(measure(context, mesh, classes, patches, errors));
+    LIMNI_TRY(measure(context, mesh, classes, pieces, patches, errors));
     for (uint32_t p = 0; p < patch_count; p++) {
         const uint32_t face = patches->faces[p] >> 2, rotation = patches->faces[p] & 3;
         for (uint32_t edge = 0; edge < 3; edge++)
-            patches->errors[3 * p + edge] =
-                encode_edge(mesh, 3 * face + (edge + rotation) % 3, errors);
+            patches->errors[3 * p + edge] = encode_edge(mesh, (const float(*)[3])patches->controls,
+                                                        3 * face + (edge + rotation) % 3, errors);
     }
     limni_release(context, errors);
     return LIMN_BAKE_OK;

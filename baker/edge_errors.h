@@ -8,6 +8,7 @@
 
 /// Measures every patch, and fills patches->errors. The patches must have all else.
 limn_bake_status limni_edge_errors_build(limni_context *context, const limni_mesh *mesh,
-                                         const limni_classes *classes, limni_patches *patches);
+                                         const limni_classes *classes, const limni_classes *pieces,
+                                         limni_patches *patches);
 
 #endif

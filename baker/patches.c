@@ -2,40 +2,76 @@
 #include "patches.h"
 
 #include "edge_errors.h"
-#include "hash.h"
+#include "limn/limn.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// What is known of each face after the first pass.
-typedef struct assignment {
-    uint32_t *keys;      ///< [face_count] indices of class keys; holes have none
-    uint32_t *rotations; ///< [face_count]
-} assignment;
+/// How the faces of a mesh become patches.
+typedef struct arrangement {
+    const limni_mesh *mesh;
+    const limni_rules *rules;
+    limni_classes *classes, *pieces;
+    limni_mesh_sharpness sharpness;
+    limni_classifier classifier;
+    limni_assignment assigned; ///< its keys: without isolation
+    uint32_t *class_indices;   ///< [face_count]; holes have none
+    limni_isolation isolation; ///< empty without it
+} arrangement;
 
-static uint32_t class_of(const limni_classes *classes, const assignment *assigned, uint32_t face) {
-    return classes->keys[assigned->keys[face]].class_index;
+static bool is_isolated(const arrangement *a) {
+    return a->rules->isolate == LIMN_ISOLATE_ALWAYS;
 }
 
 static uint32_t slot_size_of(const limni_class *class) {
     return class->control_count <= LIMN_FORMAT_NARROW_SLOTS ? 1 : 2;
 }
 
-static limn_bake_status assign_classes(limni_context *context, const limni_mesh *mesh,
-                                       const limni_rules *rules, limni_classes *classes,
-                                       limni_classifier *classifier, const assignment *assigned) {
-    const uint32_t step = mesh->face_count / 200 + 1;
-    for (uint32_t face = 0; face < mesh->face_count; face++) {
-        if (face % step == 0) limni_progress(context, "classify", face, mesh->face_count);
-        if (mesh->holes[face]) continue;
-        const limni_local_base *const base = limni_classify(context, classifier, face);
-        if (!base) return LIMN_BAKE_BAD_INPUT;
-        LIMNI_TRY(limni_classes_find(context, classes, rules, base, &assigned->keys[face]));
-        assigned->rotations[face] = base->rotation;
-    }
-    limni_progress(context, "classify", mesh->face_count, mesh->face_count);
+static limn_bake_status begin_arrangement(limni_context *context, arrangement *a) {
+    const limni_mesh *const mesh = a->mesh;
+    LIMNI_TRY(limni_mesh_sharpness_begin(context, mesh, a->rules, &a->sharpness));
+    LIMNI_TRY(limni_classifier_begin(context, &a->classifier, mesh, &a->sharpness, a->rules));
+    LIMNI_TRY(limni_assignment_begin(context, mesh->face_count, &a->assigned));
+    a->class_indices = limni_allocate(context, mesh->face_count, sizeof *a->class_indices);
+    if (!a->class_indices) return LIMN_BAKE_MEMORY;
+    return is_isolated(a)
+               ? limni_isolation_begin(context, mesh, &a->sharpness, a->rules, &a->isolation)
+               : LIMN_BAKE_OK;
+}
+
+static void end_arrangement(limni_context *context, arrangement *a) {
+    if (is_isolated(a)) limni_isolation_end(context, &a->isolation);
+    limni_release(context, a->class_indices);
+    limni_assignment_end(context, &a->assigned);
+    limni_classifier_end(context, &a->classifier);
+    limni_mesh_sharpness_end(context, &a->sharpness);
+}
+
+static limn_bake_status assign_class(limni_context *context, arrangement *a, uint32_t face) {
+    const limni_local_base *const base = limni_classify(context, &a->classifier, face);
+    if (!base) return LIMN_BAKE_BAD_INPUT;
+    uint32_t *const key = &a->assigned.keys[face];
+    a->assigned.rotations[face] = base->rotation;
+    if (is_isolated(a))
+        return limni_isolation_classify(context, &a->isolation, a->rules, face, base->rotation,
+                                        a->pieces, a->classes, &a->class_indices[face]);
+    LIMNI_TRY(limni_classes_find(context, a->classes, a->rules, base, LIMNI_TABLE_PATCH, key));
+    a->class_indices[face] = a->classes->keys[*key].class_index;
     return LIMN_BAKE_OK;
+}
+
+static limn_bake_status assign_classes(limni_context *context, arrangement *a) {
+    const uint32_t face_count = a->mesh->face_count, step = face_count / 200 + 1;
+    for (uint32_t face = 0; face < face_count; face++) {
+        if (face % step == 0) limni_progress(context, "classify", face, face_count);
+        if (!a->mesh->holes[face]) LIMNI_TRY(assign_class(context, a, face));
+    }
+    limni_progress(context, "classify", face_count, face_count);
+    return is_isolated(a)
+               ? limni_check_agreement(context, &a->isolation.classifier, a->pieces,
+                                       &a->isolation.assigned)
+               : limni_check_agreement(context, &a->classifier, a->classes, &a->assigned);
 }
 
 // ---- Runs
@@ -64,13 +100,14 @@ static void fill_runs(const limni_classes *classes, const uint32_t *counts,
     patches->slots_size = slot;
 }
 
-static limn_bake_status make_runs(limni_context *context, const limni_mesh *mesh,
-                                  const limni_classes *classes, const assignment *assigned,
+static limn_bake_status make_runs(limni_context *context, const arrangement *a,
                                   limni_patches *patches) {
+    const limni_mesh *const mesh = a->mesh;
+    const limni_classes *const classes = a->classes;
     uint32_t *const counts = limni_allocate_zeroed(context, classes->count, sizeof *counts);
     if (!counts) return LIMN_BAKE_MEMORY;
     for (uint32_t face = 0; face < mesh->face_count; face++) {
-        if (!mesh->holes[face]) counts[class_of(classes, assigned, face)]++;
+        if (!mesh->holes[face]) counts[a->class_indices[face]]++;
     }
     for (uint32_t c = 0; c < classes->count; c++)
         patches->record.run_count += counts[c] != 0;
@@ -83,18 +120,17 @@ static limn_bake_status make_runs(limni_context *context, const limni_mesh *mesh
 }
 
 /// Orders the faces by class, and by number within a class.
-static limn_bake_status order_faces(limni_context *context, const limni_mesh *mesh,
-                                    const limni_classes *classes, const assignment *assigned,
+static limn_bake_status order_faces(limni_context *context, const arrangement *a,
                                     limni_patches *patches) {
-    uint32_t *const next = limni_allocate(context, classes->count, sizeof *next);
+    const limni_mesh *const mesh = a->mesh;
+    uint32_t *const next = limni_allocate(context, a->classes->count, sizeof *next);
     patches->faces = limni_allocate(context, patches->record.patch_count, sizeof *patches->faces);
     if (!next || !patches->faces) return LIMN_BAKE_MEMORY;
     for (uint32_t r = 0; r < patches->record.run_count; r++)
         next[patches->runs[r].class_index] = patches->runs[r].first_patch;
     for (uint32_t face = 0; face < mesh->face_count; face++) {
         if (mesh->holes[face]) continue;
-        patches->faces[next[class_of(classes, assigned, face)]++] =
-            face << 2 | assigned->rotations[face];
+        patches->faces[next[a->class_indices[face]]++] = face << 2 | a->assigned.rotations[face];
     }
     limni_release(context, next);
     return LIMN_BAKE_OK;
@@ -122,15 +158,12 @@ static void sort_pairs(uint64_t *pairs, uint32_t count) {
     }
 }
 
-/// Stores a patch's control points by slot, and the slots in ascending order of the control points:
-/// what makes two patches add the terms of a shared vertex in the same order.
-static void store_controls(const limni_local_base *base, const limni_class_key *key,
-                           uint64_t *pairs, uint32_t slot_size, uint32_t *indices, uint8_t *slots) {
-    uint32_t count = 0;
-    for (uint32_t slot = 0; slot < base->neighbourhood.control_count; slot++) {
-        if (key->slots[slot] == LIMNI_SLOT_UNUSED) continue;
-        pairs[count++] = (uint64_t)base->controls[slot] << 32 | key->slots[slot];
-    }
+/// Stores a patch's points by slot, and the slots in ascending order of the points: what makes two
+/// patches add the terms of a shared vertex in the same order.
+///
+/// pairs  [count] point << 32 | slot
+static void store_points(uint64_t *pairs, uint32_t count, uint32_t slot_size, uint32_t *indices,
+                         uint8_t *slots) {
     sort_pairs(pairs, count);
     for (uint32_t k = 0; k < count; k++) {
         indices[(uint32_t)pairs[k]] = (uint32_t)(pairs[k] >> 32);
@@ -140,8 +173,27 @@ static void store_controls(const limni_local_base *base, const limni_class_key *
     }
 }
 
-static limn_bake_status list_controls(limni_context *context, const limni_classes *classes,
-                                      const assignment *assigned, limni_classifier *classifier,
+/// The points of a patch, which are control points, or of level 1 and then follow those. Returns how
+/// many.
+static uint32_t list_points(arrangement *a, uint32_t face, uint32_t rotation, uint64_t *pairs) {
+    if (is_isolated(a)) {
+        const uint32_t count = limni_isolation_list(&a->isolation, a->pieces, face, rotation);
+        for (uint32_t slot = 0; slot < count; slot++)
+            pairs[slot] =
+                (uint64_t)(a->mesh->control_count + a->isolation.points[slot]) << 32 | slot;
+        return count;
+    }
+    const limni_local_base *const base = limni_local_base_at(&a->classifier, face, rotation);
+    const limni_class_key *const key = &a->classes->keys[a->assigned.keys[face]];
+    uint32_t count = 0;
+    for (uint32_t slot = 0; slot < base->neighbourhood.control_count; slot++) {
+        if (key->slots[slot] == LIMNI_SLOT_UNUSED) continue;
+        pairs[count++] = (uint64_t)base->controls[slot] << 32 | key->slots[slot];
+    }
+    return count;
+}
+
+static limn_bake_status list_controls(limni_context *context, arrangement *a,
                                       limni_patches *patches) {
     patches->indices = limni_allocate(context, patches->record.index_count, sizeof(uint32_t));
     patches->slots = limni_allocate_zeroed(context, patches->slots_size, 1);
@@ -149,82 +201,18 @@ static limn_bake_status list_controls(limni_context *context, const limni_classe
     if (!patches->indices || !patches->slots || !pairs) return LIMN_BAKE_MEMORY;
     for (uint32_t r = 0; r < patches->record.run_count; r++) {
         const limn_file_run *const run = &patches->runs[r];
-        const limni_class *const class = &classes->items[run->class_index];
-        const uint32_t count = class->control_count, slot_size = slot_size_of(class);
+        const limni_class *const class = &a->classes->items[run->class_index];
+        const uint32_t slot_size = slot_size_of(class);
         for (uint32_t p = 0; p < run->patch_count; p++) {
             const uint32_t packed = patches->faces[run->first_patch + p];
-            const limni_local_base *const base =
-                limni_local_base_at(classifier, packed >> 2, packed & 3);
+            const uint32_t count = list_points(a, packed >> 2, packed & 3, pairs);
             const uint64_t skipped = (uint64_t)p * count;
-            const limni_class_key *const key = &classes->keys[assigned->keys[packed >> 2]];
-            store_controls(base, key, pairs, slot_size,
-                           patches->indices + run->first_index + skipped,
-                           patches->slots + run->first_slot + skipped * slot_size);
+            store_points(pairs, count, slot_size, patches->indices + run->first_index + skipped,
+                         patches->slots + run->first_slot + skipped * slot_size);
         }
     }
     limni_release(context, pairs);
     return LIMN_BAKE_OK;
-}
-
-// ---- Agreement
-
-/// Adds up what one side says about an edge: which control points move its rows, and how. The sum
-/// does not depend on the order of the slots. On a crease both sides have tangents of their own.
-static uint64_t sum_edge(const limni_classes *classes, const limni_class_key *key,
-                         const limni_local_base *base, uint32_t edge, bool along, bool crease) {
-    const limni_class *const class = &classes->items[key->class_index];
-    uint64_t sum = 0;
-    for (uint32_t slot = 0; slot < base->neighbourhood.control_count; slot++) {
-        if (key->slots[slot] == LIMNI_SLOT_UNUSED) continue;
-        const limni_edge_prints *const prints = &class->prints[key->slots[slot]];
-        const limni_edge_print print = along ? prints->along[edge] : prints->against[edge];
-        if (print.positions) sum += limni_hash_mix(print.positions, base->controls[slot]);
-        if (print.tangents && !crease) sum -= limni_hash_mix(print.tangents, base->controls[slot]);
-    }
-    return sum;
-}
-
-/// Whether there is no patch on one side of a half-edge.
-static bool is_open(const limni_mesh *mesh, uint32_t h) {
-    return mesh->pairs[h] == LIMNI_NONE || mesh->holes[h / 3] || mesh->holes[mesh->pairs[h] / 3];
-}
-
-static void sum_edges(const limni_mesh *mesh, const limni_classes *classes,
-                      const assignment *assigned, limni_classifier *classifier, uint64_t *sums) {
-    for (uint32_t face = 0; face < mesh->face_count; face++) {
-        if (mesh->holes[face]) continue;
-        const uint32_t rotation = assigned->rotations[face];
-        const limni_local_base *const base = limni_local_base_at(classifier, face, rotation);
-        for (uint32_t h = 3 * face; h < 3 * face + 3; h++) {
-            const uint32_t edge = (h % 3 + 3 - rotation) % 3;
-            const bool along = mesh->pairs[h] == LIMNI_NONE || h < mesh->pairs[h];
-            const bool crease = limni_is_crease(&classifier->sharpness, mesh, h);
-            sums[h] =
-                sum_edge(classes, &classes->keys[assigned->keys[face]], base, edge, along, crease);
-        }
-    }
-}
-
-/// Every pair of patches must give the rows of the edge they share the same coefficients of the
-/// same control points; otherwise the surface would crack.
-static limn_bake_status check_agreement(limni_context *context, const limni_mesh *mesh,
-                                        const limni_classes *classes, const assignment *assigned,
-                                        limni_classifier *classifier) {
-    uint64_t *const sums = limni_allocate(context, 3 * (size_t)mesh->face_count, sizeof *sums);
-    if (!sums) return LIMN_BAKE_MEMORY;
-    sum_edges(mesh, classes, assigned, classifier, sums);
-    limn_bake_status status = LIMN_BAKE_OK;
-    for (uint32_t h = 0; h < 3 * mesh->face_count && status == LIMN_BAKE_OK; h++) {
-        const uint32_t pair = mesh->pairs[h];
-        if (is_open(mesh, h) || pair < h || sums[h] == sums[pair]) continue;
-        limni_place a, b;
-        status = limni_fail(context, LIMN_BAKE_INTERNAL,
-                            "%s: defect in the baker: %s and %s disagree on their common edge",
-                            mesh->path ? mesh->path : mesh->name, limni_face_place(mesh, h / 3, a),
-                            limni_face_place(mesh, pair / 3, b));
-    }
-    limni_release(context, sums);
-    return status;
 }
 
 // ---- Creases
@@ -287,37 +275,51 @@ static void find_bounds(const limni_mesh *mesh, limn_file_mesh *record) {
     }
 }
 
+/// The control points, and behind them in the bind pose those of level 1.
+static limn_bake_status place_points(limni_context *context, const limni_mesh *mesh,
+                                     const limni_refined *refined, limni_patches *patches) {
+    const uint32_t count = mesh->control_count + refined->mesh.control_count;
+    float(*const points)[3] = limni_allocate(context, count, sizeof *points);
+    if (!points) return LIMN_BAKE_MEMORY;
+    memcpy(points, mesh->controls, mesh->control_count * sizeof *points);
+    limn_mesh view = {.control_count = mesh->control_count,
+                      .point_count = count,
+                      .stencils = refined->stencils,
+                      .terms = refined->terms,
+                      .kernels = limn_kernels_select(LIMN_ISA_ALL, LIMN_FAMILY_REPRODUCIBLE)};
+    memcpy(view.origin, patches->record.origin, sizeof view.origin);
+    limn_mesh_refine(&view, points[0]);
+    limni_release(context, mesh->controls);
+    patches->controls = points;
+    patches->record.point_count = count;
+    patches->stencils = refined->stencils;
+    patches->terms = refined->terms;
+    return LIMN_BAKE_OK;
+}
+
 limn_bake_status limni_patches_build(limni_context *context, const limni_mesh *mesh,
                                      const limni_rules *rules, limni_classes *classes,
-                                     limni_patches *patches) {
-    const assignment assigned = {
-        .keys = limni_allocate(context, mesh->face_count, sizeof(uint32_t)),
-        .rotations = limni_allocate(context, mesh->face_count, sizeof(uint32_t)),
-    };
-    if (!assigned.keys || !assigned.rotations) return LIMN_BAKE_MEMORY;
+                                     limni_classes *pieces, limni_patches *patches) {
     *patches = (limni_patches){
         .name = mesh->name,
         .controls = mesh->controls,
         .rules = *rules,
         .sharp = limni_has_sharpness(mesh),
         .record = {.control_count = mesh->control_count,
+                   .point_count = mesh->control_count,
                    .patch_count = mesh->face_count - mesh->hole_count,
                    .hole_count = mesh->hole_count},
     };
     find_bounds(mesh, &patches->record);
-
-    limni_classifier classifier;
-    LIMNI_TRY(limni_classifier_begin(context, &classifier, mesh, rules));
-    LIMNI_TRY(assign_classes(context, mesh, rules, classes, &classifier, &assigned));
-    LIMNI_TRY(check_agreement(context, mesh, classes, &assigned, &classifier));
-    LIMNI_TRY(make_runs(context, mesh, classes, &assigned, patches));
-    LIMNI_TRY(order_faces(context, mesh, classes, &assigned, patches));
-    LIMNI_TRY(list_controls(context, classes, &assigned, &classifier, patches));
-    LIMNI_TRY(list_creases(context, mesh, &classifier.sharpness, patches));
-    LIMNI_TRY(make_normals(context, mesh, &classifier.sharpness, rules, patches));
-    limni_classifier_end(context, &classifier);
-    LIMNI_TRY(limni_edge_errors_build(context, mesh, classes, patches));
-    limni_release(context, assigned.keys);
-    limni_release(context, assigned.rotations);
-    return LIMN_BAKE_OK;
+    arrangement a = {.mesh = mesh, .rules = rules, .classes = classes, .pieces = pieces};
+    LIMNI_TRY(begin_arrangement(context, &a));
+    LIMNI_TRY(assign_classes(context, &a));
+    LIMNI_TRY(make_runs(context, &a, patches));
+    LIMNI_TRY(order_faces(context, &a, patches));
+    LIMNI_TRY(list_controls(context, &a, patches));
+    LIMNI_TRY(list_creases(context, mesh, &a.sharpness, patches));
+    LIMNI_TRY(make_normals(context, mesh, &a.sharpness, rules, patches));
+    if (is_isolated(&a)) LIMNI_TRY(place_points(context, mesh, &a.isolation.refined, patches));
+    end_arrangement(context, &a);
+    return limni_edge_errors_build(context, mesh, classes, pieces, patches);
 }

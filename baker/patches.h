@@ -3,16 +3,17 @@
 #ifndef LIMNI_PATCHES_H
 #define LIMNI_PATCHES_H
 
-#include "classes.h"
 #include "control_normals.h"
-#include "limn/format.h"
+#include "isolation.h"
 
 typedef struct limni_patches {
     const char *name;
     limni_rules rules; ///< by which its classes were made
     bool sharp;        ///< whether it has tags of sharpness
     limn_file_mesh record;
-    float (*controls)[3];
+    float (*controls)[3]; ///< [point_count]
+    uint32_t *stencils;   ///< see limni_refined; NULL: not isolated
+    limn_file_term *terms;
     limn_file_run *runs;
     uint32_t *faces;   ///< [patch_count] face << 2 | rotation
     uint32_t *indices; ///< [index_count]
@@ -24,11 +25,12 @@ typedef struct limni_patches {
     uint32_t *corner_normals;      ///< [patch_count][3] by its corners; NULL: its control points
 } limni_patches;
 
-/// Classifies every face of a mesh and lists its patches; adds the classes that are new. Checks
+/// Classifies every face of a mesh and lists its patches; adds the classes and the pieces that are
+/// new. Checks
 /// that patches which share an edge agree on it, and fails with LIMN_BAKE_INTERNAL if any two do
 /// not.
 limn_bake_status limni_patches_build(limni_context *context, const limni_mesh *mesh,
                                      const limni_rules *rules, limni_classes *classes,
-                                     limni_patches *patches);
+                                     limni_classes *pieces, limni_patches *patches);
 
 #endif

@@ -16,6 +16,7 @@ typedef struct limni_rules {
     limn_creases creases;
     limn_creasing creasing;
     limn_normals normals;
+    limn_isolate isolate;
 } limni_rules;
 
 /// Weights of a mask: [0] of the vertex itself, [1 + r] of ring vertex r. They sum to exactly 1.

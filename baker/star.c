@@ -20,6 +20,10 @@ limni_sharpness limni_star_next_edge(limn_creasing creasing, const limni_star *s
     return limni_edge_sharpness_next(creasing, limni_star_edge(star, r), sharp_edges_of(star));
 }
 
+uint32_t limni_star_opposite(const limni_star *star, uint32_t r) {
+    return star->closed ? 2 * ((r + star->count / 2) % star->count) : 0;
+}
+
 static limni_vertex_rule rule_of(limni_sharpness vertex, uint32_t sharp_count) {
     static const limni_vertex_rule by_count[] = {LIMNI_VERTEX_SMOOTH, LIMNI_VERTEX_DART,
                                                  LIMNI_VERTEX_CREASE};

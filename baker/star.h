@@ -54,6 +54,10 @@ static inline uint32_t limni_star_right(const limni_star *star, uint32_t r) {
     return r > 0 ? r - 1 : star->count - 1;
 }
 
+/// In half steps around the ring of a vertex that is new on an edge, which has a row of its own on
+/// both sides: where the edge goes on that comes from place r.
+uint32_t limni_star_opposite(const limni_star *star, uint32_t r);
+
 /// The sharpness of the edge to ring vertex r.
 static inline limni_sharpness limni_star_edge(const limni_star *star, uint32_t r) {
     if (star->edges) return star->edges[r];

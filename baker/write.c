@@ -13,7 +13,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHUNKS_OF_FILE = 3, CHUNKS_OF_MESH = 8, CHUNKS_OF_NORMALS = 3, CHUNKS_OF_CREASES = 3 };
+enum {
+    CHUNKS_OF_FILE = 5,
+    CHUNKS_OF_MESH = 8,
+    CHUNKS_OF_NORMALS = 3,
+    CHUNKS_OF_CREASES = 3,
+    CHUNKS_OF_POINTS = 2
+};
 
 /// A chunk that is to be written.
 typedef struct part {
@@ -40,7 +46,7 @@ static void list_mesh(const limni_patches *mesh, uint32_t m, part *parts, uint32
     const part of_mesh[CHUNKS_OF_MESH] = {
         {LIMN_CHUNK_MESH, m, record, sizeof *record},
         {LIMN_CHUNK_NAME, m, mesh->name, strlen(mesh->name) + 1},
-        {LIMN_CHUNK_CONTROLS, m, mesh->controls, record->control_count * sizeof *mesh->controls},
+        {LIMN_CHUNK_CONTROLS, m, mesh->controls, record->point_count * sizeof *mesh->controls},
         {LIMN_CHUNK_RUNS, m, mesh->runs, record->run_count * sizeof *mesh->runs},
         {LIMN_CHUNK_FACES, m, mesh->faces, record->patch_count * sizeof *mesh->faces},
         {LIMN_CHUNK_INDICES, m, mesh->indices, record->index_count * sizeof *mesh->indices},
@@ -50,6 +56,12 @@ static void list_mesh(const limni_patches *mesh, uint32_t m, part *parts, uint32
     memcpy(parts + *count, of_mesh, sizeof of_mesh);
     *count += CHUNKS_OF_MESH;
     add_part(parts, count, LIMN_CHUNK_CREASES, m, mesh->creases, record->patch_count);
+    if (!mesh->stencils) return;
+    const uint32_t point_count = record->point_count - record->control_count;
+    add_part(parts, count, LIMN_CHUNK_STENCILS, m, mesh->stencils,
+             (1 + (uint64_t)point_count) * sizeof *mesh->stencils);
+    add_part(parts, count, LIMN_CHUNK_TERMS, m, mesh->terms,
+             mesh->stencils[point_count] * sizeof *mesh->terms);
 }
 
 static void list_normals(const limni_patches *mesh, uint32_t m, part *parts, uint32_t *count) {
@@ -68,31 +80,72 @@ static void list_normals(const limni_patches *mesh, uint32_t m, part *parts, uin
              3 * mesh->record.patch_count * sizeof *mesh->corner_normals);
 }
 
-static limn_bake_status make_class_records(limni_context *context, const limni_classes *classes,
-                                           limn_file_class **records, uint64_t *tables_size) {
-    *records = limni_allocate_zeroed(context, classes->count, sizeof **records);
-    if (!*records) return LIMN_BAKE_MEMORY;
-    uint64_t offset = 0;
-    for (uint32_t c = 0; c < classes->count; c++) {
-        (*records)[c] = limni_class_record(&classes->items[c]);
-        (*records)[c].table_offset = offset;
-        offset += limni_class_table_size(&classes->items[c]);
+static uint64_t align(uint64_t offset) {
+    return (offset + LIMN_FORMAT_ALIGNMENT - 1) / LIMN_FORMAT_ALIGNMENT * LIMN_FORMAT_ALIGNMENT;
+}
+
+/// The chunks that meshes share.
+typedef struct shared {
+    const limni_classes *classes, *pieces;
+    limn_file_class *class_records;
+    limn_file_piece *piece_records;
+    uint16_t *columns;
+    uint64_t tables_size, columns_size;
+} shared;
+
+static limn_bake_status make_records(limni_context *context, shared *s) {
+    s->class_records = limni_allocate_zeroed(context, s->classes->count, sizeof *s->class_records);
+    s->piece_records = limni_allocate_zeroed(context, s->pieces->count, sizeof *s->piece_records);
+    if (!s->class_records || !s->piece_records) return LIMN_BAKE_MEMORY;
+    for (uint32_t c = 0; c < s->classes->count; c++) {
+        const limni_class *const class = &s->classes->items[c];
+        uint64_t *const size = class->parts ? &s->columns_size : &s->tables_size;
+        s->class_records[c] = limni_class_record(class);
+        s->class_records[c].table_offset = *size;
+        *size += class->parts ? limni_class_parts_size(class) : limni_class_table_size(class);
     }
-    *tables_size = offset;
+    for (uint32_t p = 0; p < s->pieces->count; p++) {
+        s->piece_records[p] = limni_piece_record(&s->pieces->items[p]);
+        s->piece_records[p].table_offset = s->tables_size;
+        s->tables_size += align(limni_class_table_size(&s->pieces->items[p]));
+    }
     return LIMN_BAKE_OK;
 }
 
-static void copy_tables(const limni_classes *classes, unsigned char *dst) {
-    for (uint32_t c = 0; c < classes->count; c++) {
-        const limni_class *const class = &classes->items[c];
-        const size_t size = limni_class_table_size(class);
-        memcpy(dst, class->table, size);
-        dst += size;
+static limn_bake_status make_columns(limni_context *context, shared *s) {
+    s->columns = limni_allocate(context, (size_t)s->columns_size, 1);
+    if (!s->columns) return LIMN_BAKE_MEMORY;
+    for (uint32_t c = 0; c < s->classes->count; c++) {
+        const limni_class *const class = &s->classes->items[c];
+        if (class->parts)
+            memcpy((unsigned char *)s->columns + s->class_records[c].table_offset, class->parts,
+                   limni_class_parts_size(class));
     }
+    return LIMN_BAKE_OK;
 }
 
-static uint64_t align(uint64_t offset) {
-    return (offset + LIMN_FORMAT_ALIGNMENT - 1) / LIMN_FORMAT_ALIGNMENT * LIMN_FORMAT_ALIGNMENT;
+static void list_shared(const shared *s, const char *info, part *parts, uint32_t *count) {
+    const uint32_t none = LIMN_FORMAT_NO_MESH;
+    parts[(*count)++] = (part){LIMN_CHUNK_INFO, none, info, strlen(info) + 1};
+    parts[(*count)++] = (part){LIMN_CHUNK_CLASSES, none, s->class_records,
+                               s->classes->count * sizeof *s->class_records};
+    parts[(*count)++] = (part){LIMN_CHUNK_TABLES, none, NULL, s->tables_size};
+    if (s->pieces->count == 0) return;
+    parts[(*count)++] = (part){LIMN_CHUNK_PIECES, none, s->piece_records,
+                               s->pieces->count * sizeof *s->piece_records};
+    parts[(*count)++] = (part){LIMN_CHUNK_COLUMNS, none, s->columns, s->columns_size};
+}
+
+static void copy_tables(const shared *s, unsigned char *dst) {
+    for (uint32_t c = 0; c < s->classes->count; c++) {
+        const limni_class *const class = &s->classes->items[c];
+        if (class->table)
+            memcpy(dst + s->class_records[c].table_offset, class->table,
+                   limni_class_table_size(class));
+    }
+    for (uint32_t p = 0; p < s->pieces->count; p++)
+        memcpy(dst + s->piece_records[p].table_offset, s->pieces->items[p].table,
+               limni_class_table_size(&s->pieces->items[p]));
 }
 
 /// Places the parts behind the directory. Returns the size of the file.
@@ -112,13 +165,13 @@ static uint64_t place_parts(const part *parts, uint32_t count, limn_file_chunk *
     return offset;
 }
 
-static void fill_blob(const limni_classes *classes, const part *parts, uint32_t count,
+static void fill_blob(const shared *s, const part *parts, uint32_t count,
                       const limn_file_chunk *directory, limn_file_header *header,
                       unsigned char *blob) {
     for (uint32_t p = 0; p < count; p++) {
         unsigned char *const dst = blob + directory[p].offset;
         if (parts[p].kind == LIMN_CHUNK_TABLES) {
-            copy_tables(classes, dst);
+            copy_tables(s, dst);
         } else if (parts[p].size) {
             memcpy(dst, parts[p].data, (size_t)parts[p].size);
         }
@@ -162,31 +215,31 @@ static void describe(const limni_rules *rules, const limni_patches *meshes, uint
     const char *const normals = rules->normals == LIMN_NORMALS_EXACT ? "exact" : "none";
     char creases[64] = "";
     if (creasing) snprintf(creases, sizeof creases, " creases=opensubdiv creasing=%s", creasing);
-    snprintf(text, size, "scheme=loop weights=%s boundary=%s%s normals=%s",
+    const char *const isolate = rules->isolate == LIMN_ISOLATE_ALWAYS ? " isolate=1" : "";
+    snprintf(text, size, "scheme=loop weights=%s boundary=%s%s normals=%s%s",
              rules->weights == LIMN_WEIGHTS_WARREN ? "warren" : "loop",
-             boundary_name(meshes, mesh_count), creases, normals);
+             boundary_name(meshes, mesh_count), creases, normals, isolate);
 }
 
 limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rules,
-                                  const limni_classes *classes, const limni_patches *meshes,
-                                  uint32_t mesh_count, unsigned char **blob, size_t *blob_size) {
+                                  const limni_classes *classes, const limni_classes *pieces,
+                                  const limni_patches *meshes, uint32_t mesh_count,
+                                  unsigned char **blob, size_t *blob_size) {
     const bool with_normals = rules->normals == LIMN_NORMALS_EXACT;
-    const uint32_t per_mesh = CHUNKS_OF_MESH + CHUNKS_OF_NORMALS + CHUNKS_OF_CREASES;
+    const uint32_t per_mesh =
+        CHUNKS_OF_MESH + CHUNKS_OF_NORMALS + CHUNKS_OF_CREASES + CHUNKS_OF_POINTS;
     const uint32_t room = CHUNKS_OF_FILE + per_mesh * mesh_count;
-    uint32_t part_count = CHUNKS_OF_FILE;
     part *const parts = limni_allocate(context, room, sizeof *parts);
     limn_file_chunk *const directory = limni_allocate(context, room, sizeof *directory);
-    limn_file_class *class_records;
-    uint64_t tables_size;
-    LIMNI_TRY(make_class_records(context, classes, &class_records, &tables_size));
+    shared all = {.classes = classes, .pieces = pieces};
+    LIMNI_TRY(make_records(context, &all));
+    LIMNI_TRY(make_columns(context, &all));
     if (!parts || !directory) return LIMN_BAKE_MEMORY;
 
     char info[128];
+    uint32_t part_count = 0;
     describe(rules, meshes, mesh_count, info, sizeof info);
-    parts[0] = (part){LIMN_CHUNK_INFO, LIMN_FORMAT_NO_MESH, info, strlen(info) + 1};
-    parts[1] = (part){LIMN_CHUNK_CLASSES, LIMN_FORMAT_NO_MESH, class_records,
-                      classes->count * sizeof *class_records};
-    parts[2] = (part){LIMN_CHUNK_TABLES, LIMN_FORMAT_NO_MESH, NULL, tables_size};
+    list_shared(&all, info, parts, &part_count);
     for (uint32_t m = 0; m < mesh_count; m++) {
         list_mesh(&meshes[m], m, parts, &part_count);
         if (with_normals) list_normals(&meshes[m], m, parts, &part_count);
@@ -204,7 +257,7 @@ limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rul
     *blob = limni_allocate_zeroed(context, (size_t)header.size, 1);
     if (!*blob) return LIMN_BAKE_MEMORY;
     *blob_size = (size_t)header.size;
-    fill_blob(classes, parts, part_count, directory, &header, *blob);
+    fill_blob(&all, parts, part_count, directory, &header, *blob);
     limn_pack pack;
     const limn_result result = limn_pack_open(&pack, *blob, *blob_size);
     if (result != LIMN_OK)
@@ -212,6 +265,8 @@ limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rul
                           "defect in the baker: it made a bad file: %s", limn_result_text(result));
     limni_release(context, parts);
     limni_release(context, directory);
-    limni_release(context, class_records);
+    limni_release(context, all.class_records);
+    limni_release(context, all.piece_records);
+    limni_release(context, all.columns);
     return LIMN_BAKE_OK;
 }

@@ -10,6 +10,11 @@ const limn_domain *limn_domain_get(limn_domain_kind kind) {
     return domains[kind];
 }
 
+const limni_pieces *limni_pieces_get(limn_domain_kind kind) {
+    (void)kind; // there is but one
+    return &limni_pieces_triangle;
+}
+
 const limni_layout *limni_layout_get(limn_domain_kind kind, bool tangents, uint32_t pair_count) {
     (void)kind; // there is but one
     return &(tangents ? limni_tangents_triangle : limni_positions_triangle)[pair_count > 0];

@@ -40,7 +40,48 @@ typedef struct limni_layout {
     uint16_t edge_counts[LIMN_LEVEL_COUNT];
 } limni_layout;
 
+/// An isolated patch is evaluated in four pieces, the faces that one level of subdivision makes of
+/// it: one at each corner of a triangle, and the one in the middle. Their rows are those of a
+/// triangle of depth 3. Rows between two pieces belong to the middle one.
+enum { LIMNI_PIECE_COUNT = LIMN_FORMAT_PIECE_COUNT, LIMNI_PIECE_PLACES = 168 };
+
+typedef enum limni_piece_kind {
+    LIMNI_PIECE_CORNER, ///< its corner 0 is the patch's, and its edges 0 and 2 are halves of edges
+    LIMNI_PIECE_MIDDLE  ///< its corner k is the middle of edge k of the patch
+} limni_piece_kind;
+
+/// How the table of a piece is laid out.
+typedef struct limni_piece_layout {
+    uint16_t row_stride;               ///< places of a column, a multiple of 8
+    const uint16_t *rows;              ///< [row_stride] the row of the piece at each place;
+                                       ///< LIMNI_NO_ROW: padding
+    uint16_t counts[LIMN_LEVEL_COUNT]; ///< places that a level of the patch reads: whole blocks
+} limni_piece_layout;
+
+/// Up to four consecutive rows.
+typedef struct limni_piece_copy {
+    uint16_t from; ///< among the places of all pieces, one behind the other
+    uint16_t to;   ///< row of the patch
+} limni_piece_copy;
+
+/// Sums of pieces go to places of their own, and from there to the rows of the patch. Copies are in
+/// the order of the rows, and those of a level are a prefix: each may write four rows, of which the
+/// last are overwritten. In a corner's tables of tangents, the first block has the rows of the half
+/// edge that starts at the corner, its far end included, and the second those of the other one.
+typedef struct limni_pieces {
+    limni_piece_layout positions[2], tangents[2]; ///< by limni_piece_kind
+    const limni_piece_copy *position_copies, *normal_copies;
+    uint16_t position_copy_counts[LIMN_LEVEL_COUNT], normal_copy_counts[LIMN_LEVEL_COUNT];
+} limni_pieces;
+
+static inline limni_piece_kind limni_piece_kind_of(uint32_t piece) {
+    return piece < LIMNI_PIECE_COUNT - 1 ? LIMNI_PIECE_CORNER : LIMNI_PIECE_MIDDLE;
+}
+
 extern const limn_domain limni_domain_triangle;
+extern const limni_pieces limni_pieces_triangle;
+
+const limni_pieces *limni_pieces_get(limn_domain_kind kind);
 
 /// The layout of a class's table of positions, or of each table of tangents; `pair_count` is that
 /// of its record.

@@ -55,23 +55,50 @@ static void add_row(point p, int level) {
     rows[row_count++] = p;
 }
 
-/// Rows inside the triangle that a level adds, of one side of the mirror line i = j: -1 for j > i,
-/// 0 on the line, 1 for j < i. By ascending j, then i; beyond the line in the order of their
-/// images.
-static void add_interior(int level, int side) {
+enum { IN_CORNER, IN_NEXT_CORNER, IN_MIDDLE }; ///< pieces on the side i > j of the mirror line
+
+static int place_of(point p) {
+    if (p.i + p.j < GRID / 2) return IN_CORNER;
+    return p.i > GRID / 2 ? IN_NEXT_CORNER : IN_MIDDLE;
+}
+
+/// Rows on one side of the mirror line that a level adds to one piece, by ascending j, then i; or
+/// their images. `turn` takes the frame of the piece to that of the patch.
+///
+/// side  0: rows on the line i = j, 1: those with i > j, -1: their images in the frame
+static void add_side(int level, int piece, int side, bool image, point (*turn)(int i, int j)) {
     const int step = GRID >> level;
     for (int j = step; j < GRID; j += step) {
-        for (int i = step; i + j < GRID; i += step) {
-            if (side == 0 && i == j) add_row((point){i, j}, level);
-            if (side == 1 && i > j) add_row((point){i, j}, level);
-            if (side == -1 && i > j) add_row((point){j, i}, level);
+        for (int i = side ? j + step : j; i + j < GRID; i += side ? step : GRID) {
+            const point p = side < 0 ? turn(j, i) : turn(i, j);
+            if (place_of(p) == piece) add_row(image ? (point){p.j, p.i} : p, level);
         }
     }
 }
 
+static point as_is(int i, int j) {
+    return (point){i, j};
+}
+
+/// From the frame of corner 1.
+static point from_next_corner(int i, int j) {
+    return (point){GRID - i - j, i};
+}
+
+/// Rows inside the triangle that a level adds on the side i > j, or their images: those of the piece
+/// at corner 0; those at corner 1, in the order in which corner 0 has its own, which is that of its
+/// mirror line, of one side of it, and of the other; those in the middle.
+static void add_interior_side(int level, bool image) {
+    add_side(level, IN_CORNER, 1, image, as_is);
+    for (int own = 0; own < 3; own++)
+        add_side(level, IN_NEXT_CORNER, own == 2 ? -1 : own, image, from_next_corner);
+    add_side(level, IN_MIDDLE, 1, image, as_is);
+}
+
 // Nested order: what level n adds comes after all of level n - 1; edges first, each along its
 // direction, then the interior: the rows on the mirror line, those on one side of it, and their
-// images, so that a patch that is its own mirror image can be evaluated by halves.
+// images, so that a patch that is its own mirror image can be evaluated by halves; on one side piece
+// by piece, so that the rows of a piece are consecutive.
 static void number_rows(void) {
     for (int level = 0; level < LEVEL_COUNT; level++) {
         const int step = GRID >> level;
@@ -81,11 +108,12 @@ static void number_rows(void) {
             for (int t = step; t < GRID; t += step)
                 add_row(edge_point(edge, t), level);
         }
-        add_interior(level, 0);
+        for (int i = step; 2 * i < GRID; i += step)
+            add_row((point){i, i}, level);
         pair_rows[level] = row_count;
-        add_interior(level, 1);
+        add_interior_side(level, false);
         mirror_rows[level] = row_count;
-        add_interior(level, -1);
+        add_interior_side(level, true);
         row_counts[level] = row_count;
     }
 }
@@ -301,6 +329,162 @@ static void print_layouts(void) {
     }
 }
 
+// ---- Pieces
+
+/// Of an isolated patch: the triangles at its corners, and the one in the middle.
+enum { PIECES = 4, MIDDLE = 3, PIECE_DEPTH = LEVEL_MAX - 1, PIECE_ROWS = 48, COPY_MAX = 4 };
+
+/// Where a row of a piece is in the patch.
+static int row_in_patch(int piece, point p) {
+    const point a = corners[piece % CORNERS], b = corners[(piece + 1) % CORNERS],
+                c = corners[(piece + 2) % CORNERS];
+    point from = a, along = {b.i - a.i, b.j - a.j}, across = {c.i - a.i, c.j - a.j};
+    if (piece == MIDDLE) {
+        from = (point){(a.i + b.i) / 2, (a.j + b.j) / 2}; // its corners: the middles of edges
+        along = (point){c.i - a.i, c.j - a.j};
+        across = (point){c.i - b.i, c.j - b.j};
+    }
+    return row_at(from.i + (p.i * along.i + p.j * across.i) / (2 * GRID),
+                  from.j + (p.i * along.j + p.j * across.j) / (2 * GRID));
+}
+
+/// See limni_piece_layout; the fields are the same.
+typedef struct piece_layout {
+    int row_stride, rows[PIECE_ROWS], counts[LEVEL_COUNT];
+} piece_layout;
+
+/// Appends a row of the piece; `level` and finer ones of the patch read it.
+static void add_place(piece_layout *l, int row, int level) {
+    l->rows[l->row_stride++] = row;
+    for (; level < LEVEL_COUNT; level++)
+        l->counts[level] = pad(l->row_stride);
+}
+
+static void fill_block(piece_layout *l) {
+    while (l->row_stride % ROW_BLOCK)
+        l->rows[l->row_stride++] = NO_ROW;
+}
+
+/// Rows of a piece in the order of those of the patch, where most are consecutive; of a corner's, in
+/// the second one, which leaves the fewest gaps in all three.
+///
+/// take  whether a piece has a row
+static void add_by_patch(piece_layout *l, int piece, bool (*take)(int piece, int row)) {
+    for (int at = 0; at < ROW_MAX; at++) {
+        for (int row = 0; row < row_counts[PIECE_DEPTH]; row++) {
+            if (row_in_patch(piece, rows[row]) == at && take(piece, row))
+                add_place(l, row, row_levels[at]);
+        }
+    }
+    fill_block(l);
+}
+
+enum { CORNER_PIECE = 1 }; ///< the one that stands for all three
+
+/// Each row of a patch has one piece: of those between two, the middle one.
+static bool has_position(int piece, int row) {
+    return piece == MIDDLE || !(edges_of(rows[row]) & 2);
+}
+
+static bool has_tangents_inside(int piece, int row) {
+    return has_position(piece, row) && !edges_of(rows[row_in_patch(piece, rows[row])]);
+}
+
+static piece_layout piece_positions(int piece) {
+    piece_layout l = {0};
+    add_by_patch(&l, piece, has_position);
+    return l;
+}
+
+/// At a corner first a block each for the halves of the two edges, which are summed relative to a
+/// point of the edge: the one that starts there, with its middle, and the other.
+static piece_layout piece_tangents(int piece) {
+    static const int halves[2][ROW_BLOCK] = {{16, 8, 4, 12, 2, 6, 10, 14},
+                                             {8, 4, 12, 2, 6, 10, 14, -1}};
+    static const int levels[2][ROW_BLOCK] = {{1, 2, 3, 3, 4, 4, 4, 4}, {2, 3, 3, 4, 4, 4, 4, -1}};
+    piece_layout l = {0};
+    for (int half = 0; half < 2 && piece != MIDDLE; half++) {
+        for (int r = 0; r < ROW_BLOCK && halves[half][r] > 0; r++) {
+            const point p = half ? (point){0, halves[1][r]} : (point){halves[0][r], 0};
+            add_place(&l, row_at(p.i, p.j), levels[half][r]);
+        }
+        fill_block(&l);
+    }
+    add_by_patch(&l, piece, has_tangents_inside);
+    return l;
+}
+
+/// Where the rows of a patch wait: those of one piece behind those of another.
+static int staged_row(const piece_layout layouts[2], int row) {
+    for (int piece = 0, first = 0; piece < PIECES; piece++) {
+        const piece_layout *const l = &layouts[piece == MIDDLE];
+        for (int place = 0; place < l->row_stride; place++) {
+            if (l->rows[place] != NO_ROW && row_in_patch(piece, rows[l->rows[place]]) == row)
+                return first + place;
+        }
+        first += l->row_stride;
+    }
+    return -1;
+}
+
+/// Four rows at a time, as far as they are consecutive on both sides. By ascending rows, so what a
+/// copy writes too much is overwritten by the next.
+static void print_copies(const char *name, const piece_layout layouts[2], int counts[LEVEL_COUNT]) {
+    int count = 0, row = 0;
+    printf("static const limni_piece_copy %s_copies[] = {", name);
+    for (int level = 0; level < LEVEL_COUNT; level++) {
+        while (row < row_counts[level]) {
+            const int from = staged_row(layouts, row), first = row;
+            if (from < 0) { // tangents of corners
+                row++;
+                continue;
+            }
+            while (++row < row_counts[level] && row - first < COPY_MAX &&
+                   staged_row(layouts, row) == from + row - first) {
+            }
+            printf("%s{%d, %d}", count == 0 ? "" : count % 8 == 0 ? ",\n    " : ", ", from, first);
+            count++;
+        }
+        counts[level] = count;
+    }
+    printf("};\n\n");
+}
+
+static void print_piece_layout(const char *name, const piece_layout *l) {
+    printf("        {.row_stride = %d, .rows = %s_rows,\n    ", l->row_stride, name);
+    print_list("counts", l->counts);
+    printf("        },\n");
+}
+
+static void print_pieces(void) {
+    const piece_layout positions[2] = {piece_positions(CORNER_PIECE), piece_positions(MIDDLE)};
+    const piece_layout of_tangents[2] = {piece_tangents(CORNER_PIECE), piece_tangents(MIDDLE)};
+    const piece_layout *const all[4] = {&positions[0], &positions[1], &of_tangents[0],
+                                        &of_tangents[1]};
+    static const char *const names[4] = {"corner_position", "middle_position", "corner_tangent",
+                                         "middle_tangent"};
+    int position_counts[LEVEL_COUNT], normal_counts[LEVEL_COUNT];
+    for (int l = 0; l < 4; l++) {
+        printf("static const uint16_t %s_rows[] = {", names[l]);
+        for (int r = 0; r < all[l]->row_stride; r++)
+            printf("%s%d", r == 0 ? "" : r % 16 == 0 ? ",\n    " : ", ", all[l]->rows[r]);
+        printf("};\n\n");
+    }
+    print_copies("position", positions, position_counts);
+    print_copies("normal", of_tangents, normal_counts);
+    printf("const limni_pieces limni_pieces_triangle = {\n");
+    for (int l = 0; l < 4; l++) {
+        if (l % 2 == 0) printf("    .%s = {\n", l ? "tangents" : "positions");
+        print_piece_layout(names[l], all[l]);
+        if (l % 2) printf("    },\n");
+    }
+    printf("    .position_copies = position_copies,\n");
+    print_list("position_copy_counts", position_counts);
+    printf("    .normal_copies = normal_copies,\n");
+    print_list("normal_copy_counts", normal_counts);
+    printf("};\n\n");
+}
+
 int main(void) {
     int index_counts[LEVEL_COUNT];
     number_rows();
@@ -312,6 +496,7 @@ int main(void) {
     for (int level = 0; level < LEVEL_COUNT; level++)
         index_counts[level] = print_indices(level);
     print_layouts();
+    print_pieces();
     printf("const limn_domain limni_domain_triangle = {\n"
            "    .kind = LIMN_DOMAIN_TRIANGLE,\n    .corner_count = %d,\n",
            CORNERS);

@@ -37,18 +37,32 @@
 #define LIMNI_PLAIN_TERMS 24
 LIMN_STATIC_ASSERT(LIMNI_PLAIN_TERMS == LIMN_FORMAT_PAIRED_MAX, "pairs are summed plainly");
 
+/// One piece of the patches of an isolated class.
+typedef struct limni_piece {
+    const float *table;      ///< as for a run
+    const uint16_t *columns; ///< [control_count of the run] or LIMN_FORMAT_NO_COLUMN
+    const limni_piece_layout *positions, *tangents; ///< with the same stride
+    size_t table_stride;                            ///< floats from table to table
+    uint16_t first_place;                           ///< among those of all pieces
+} limni_piece;
+
 /// Consecutive patches of one class.
 typedef struct limni_run {
     const float *table;      ///< of positions: [control_count][row_stride], columns aligned to 32
                              ///< bytes; behind it, perhaps, the two of tangents
     const uint32_t *indices; ///< [patch_count][control_count], by slot
     const void *slots; ///< the same shape, slot_size bytes each: in ascending order of the indices
+    const limni_pieces *pieces; ///< the class is in pieces, and has no table; NULL: it has
+    limni_piece of_pieces[LIMNI_PIECE_COUNT];
     const limni_layout *layout;         ///< of positions
     const limni_layout *tangent_layout; ///< with the same stride
     uint32_t control_count;
     uint32_t pair_count; ///< mirrored control points: slots 1 and 2, 3 and 4, …; 0: no symmetry
     size_t table_stride; ///< floats from table to table
     uint32_t slot_size;  ///< 1 or 2
+    uint32_t
+        first_corner; ///< index of what stands for control point 0 at corners: with pieces, the
+                      ///< points of level 1
     const uint32_t *corner_normals; ///< [patch_count][corner_count]; NULL: the control points
     uint32_t patch_count;
     const limn_plan_patch
@@ -101,6 +115,8 @@ struct limn_kernels {
     uint32_t isa;
     limn_family family;
     void (*evaluate)(const limni_run *run, const limni_points *points, const limni_target *target);
+    /// See limn_mesh_refine().
+    void (*refine)(const limn_mesh *mesh, float *controls);
     /// See limn_mesh_control_normals().
     void (*control_normals)(const limn_mesh *mesh, const float *controls, float *normals);
 };

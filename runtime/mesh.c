@@ -16,29 +16,64 @@ uint32_t limni_find_run(const limn_mesh *mesh, uint32_t patch_index) {
     return low;
 }
 
+static limni_piece piece_of(const limn_mesh *mesh, const limn_file_class *class, uint32_t p) {
+    const uint16_t *const words = mesh->columns + class->table_offset / sizeof(uint16_t);
+    const limn_file_piece *const record = &mesh->pieces[words[p]];
+    const limni_pieces *const pieces = limni_pieces_get(mesh->domain->kind);
+    const uint32_t stride = limn_file_piece_stride(record);
+    return (limni_piece){
+        .table = mesh->tables + record->table_offset / sizeof(float),
+        .columns = words + LIMNI_PIECE_COUNT + (size_t)p * class->control_count,
+        .positions = &pieces->positions[record->kind],
+        .tangents = &pieces->tangents[record->kind],
+        .table_stride = (size_t)record->control_count * stride,
+        .first_place = (uint16_t)(p * pieces->positions[LIMNI_PIECE_CORNER].row_stride),
+    };
+}
+
+static void set_pieces(const limn_mesh *mesh, const limn_file_class *class, limni_run *run) {
+    run->pieces = limni_pieces_get(mesh->domain->kind);
+    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++)
+        run->of_pieces[p] = piece_of(mesh, class, p);
+}
+
+static void set_table(const limn_mesh *mesh, const limn_file_class *class, limni_run *run) {
+    const limn_domain_kind kind = mesh->domain->kind;
+    run->table = mesh->tables + class->table_offset / sizeof(float);
+    run->layout = limni_layout_get(kind, false, class->pair_count);
+    run->tangent_layout = limni_layout_get(kind, true, class->pair_count);
+    run->table_stride = (size_t) class->control_count * run->layout->row_stride;
+    run->pair_count = class->pair_count;
+}
+
 limni_run limni_run_part(const limn_mesh *mesh, const limn_file_run *run, uint32_t begin,
                          uint32_t end) {
     const limn_file_class *const class = &mesh->classes[run->class_index];
     const uint32_t slot_size = limn_file_slot_size(class);
-    const limn_domain_kind kind = mesh->domain->kind;
-    const limni_layout *const layout = limni_layout_get(kind, false, class->pair_count);
     const size_t skipped = (size_t)begin * class->control_count;
-    return (limni_run){
-        .table = mesh->tables + class->table_offset / sizeof(float),
+    limni_run part = {
         .indices = mesh->indices + run->first_index + skipped,
         .slots = mesh->slots + run->first_slot + skipped * slot_size,
         .control_count = class->control_count,
-        .layout = layout,
-        .tangent_layout = limni_layout_get(kind, true, class->pair_count),
-        .table_stride = (size_t) class->control_count * layout->row_stride,
-        .pair_count = class->pair_count,
         .slot_size = slot_size,
+        .first_corner = limni_first_corner(mesh, class),
         .corner_normals = mesh->corner_normals
                               ? mesh->corner_normals +
                                     mesh->domain->corner_count * ((size_t)run->first_patch + begin)
                               : NULL,
         .patch_count = end - begin,
     };
+    if (class->depth == LIMN_FORMAT_PIECE_DEPTH) {
+        set_pieces(mesh, class, &part);
+    } else {
+        set_table(mesh, class, &part);
+    }
+    return part;
+}
+
+void limn_mesh_refine(const limn_mesh *mesh, float *controls) {
+    LIMNI_REQUIRE(mesh && controls, );
+    if (mesh->point_count > mesh->control_count) mesh->kernels->refine(mesh, controls);
 }
 
 limn_patch_face limn_mesh_face(const limn_mesh *mesh, uint32_t patch_index) {
@@ -54,5 +89,5 @@ void limn_mesh_corners(const limn_mesh *mesh, uint32_t patch_index,
     const uint32_t in_run = patch_index - run->first_patch;
     const limni_run patch = limni_run_part(mesh, run, in_run, in_run + 1);
     for (uint32_t corner = 0; corner < mesh->domain->corner_count; corner++)
-        corners[corner] = patch.indices[corner];
+        corners[corner] = patch.indices[corner] - patch.first_corner;
 }

@@ -4,9 +4,9 @@
  * runtime needs to. The checks go from the outside in; each may rely on those before it.
  */
 #include "checksum.h"
-#include "kernels.h"
 #include "limn/format.h"
 #include "limn/limn.h"
+#include "mesh.h"
 #include "require.h"
 
 #include <string.h>
@@ -69,13 +69,15 @@ static bool chunk_has_size(const limn_pack *pack, uint32_t mesh, uint32_t kind, 
     return chunk && chunk->size % record_size == 0 && chunk->size / record_size == count;
 }
 
-static const uint32_t kinds_of_file[] = {LIMN_CHUNK_INFO, LIMN_CHUNK_CLASSES, LIMN_CHUNK_TABLES};
+static const uint32_t kinds_of_file[] = {LIMN_CHUNK_INFO, LIMN_CHUNK_CLASSES, LIMN_CHUNK_TABLES,
+                                         LIMN_CHUNK_PIECES, LIMN_CHUNK_COLUMNS};
 static const uint32_t kinds_of_mesh[] = {LIMN_CHUNK_MESH,  LIMN_CHUNK_NAME,  LIMN_CHUNK_CONTROLS,
                                          LIMN_CHUNK_RUNS,  LIMN_CHUNK_FACES, LIMN_CHUNK_INDICES,
                                          LIMN_CHUNK_SLOTS, LIMN_CHUNK_ERRORS};
 
-static const uint32_t optional_kinds[] = {LIMN_CHUNK_NORMALS, LIMN_CHUNK_RINGS, LIMN_CHUNK_WEIGHTS,
-                                          LIMN_CHUNK_CREASES, LIMN_CHUNK_SIDES, LIMN_CHUNK_CORNERS};
+static const uint32_t optional_kinds[] = {LIMN_CHUNK_NORMALS,  LIMN_CHUNK_RINGS, LIMN_CHUNK_WEIGHTS,
+                                          LIMN_CHUNK_CREASES,  LIMN_CHUNK_SIDES, LIMN_CHUNK_CORNERS,
+                                          LIMN_CHUNK_STENCILS, LIMN_CHUNK_TERMS};
 
 static bool is_among(uint32_t kind, const uint32_t *kinds, size_t count) {
     for (size_t k = 0; k < count; k++) {
@@ -161,6 +163,76 @@ static bool all_finite(const float *values, size_t count) {
     return !bad;
 }
 
+/// Whether tables of that shape lie inside the tables chunk.
+static bool are_tables_inside(const limn_file_chunk *tables, uint64_t offset, uint32_t table_count,
+                              uint32_t control_count, uint32_t row_stride) {
+    const uint64_t column_size = row_stride * sizeof(float);
+    return offset % LIMN_FORMAT_ALIGNMENT == 0 && offset <= tables->size &&
+           (table_count == 1 || table_count == 3) &&
+           (uint64_t)table_count * control_count <= (tables->size - offset) / column_size;
+}
+
+static limn_result validate_pieces(const limn_pack *pack, const limn_file_chunk *tables) {
+    const limn_file_chunk *const chunk = find_chunk(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_PIECES);
+    if (chunk && chunk->size != pack->piece_count * sizeof(limn_file_piece))
+        return LIMN_ERROR_PIECE;
+    for (uint32_t p = 0; p < pack->piece_count; p++) {
+        const limn_file_piece *const piece = &pack->pieces[p];
+        if (piece->kind > LIMNI_PIECE_MIDDLE || piece->control_count > LIMN_FORMAT_CONTROLS_MAX ||
+            !are_tables_inside(tables, piece->table_offset, piece->table_count,
+                               piece->control_count, limn_file_piece_stride(piece)))
+            return LIMN_ERROR_PIECE;
+    }
+    return LIMN_OK;
+}
+
+static limn_result validate_columns(const uint16_t *columns, uint32_t count,
+                                    uint32_t column_count) {
+    for (uint32_t slot = 0; slot < count; slot++) {
+        if (columns[slot] >= column_count && columns[slot] != LIMN_FORMAT_NO_COLUMN)
+            return LIMN_ERROR_PIECE;
+    }
+    return LIMN_OK;
+}
+
+/// A class that is made of pieces.
+static limn_result validate_parts(const limn_pack *pack, const limn_file_class *class) {
+    const limn_file_chunk *const chunk = find_chunk(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_COLUMNS);
+    const uint64_t size =
+        LIMNI_PIECE_COUNT * (1 + (uint64_t) class->control_count) * sizeof(uint16_t);
+    if (!chunk || class->pair_count || class->table_offset % sizeof(uint16_t) != 0 ||
+        class->table_offset > chunk->size || size > chunk->size - class->table_offset)
+        return LIMN_ERROR_PIECE;
+    const uint16_t *const words =
+        (const uint16_t *)(const void *)bytes_at(pack, chunk->offset + class->table_offset);
+    const uint16_t *columns = words + LIMNI_PIECE_COUNT;
+    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++, columns += class->control_count) {
+        if (words[p] >= pack->piece_count) return LIMN_ERROR_PIECE;
+        const limn_file_piece *const piece = &pack->pieces[words[p]];
+        if (piece->kind != limni_piece_kind_of(p) || piece->table_count != class->table_count)
+            return LIMN_ERROR_PIECE;
+        TRY(validate_columns(columns, class->control_count, piece->control_count));
+    }
+    return LIMN_OK;
+}
+
+static limn_result validate_class(const limn_pack *pack, const limn_file_chunk *tables,
+                                  const limn_file_class *class) {
+    if (class->domain >= LIMN_DOMAIN_COUNT || class->control_count > LIMN_FORMAT_CONTROLS_MAX)
+        return LIMN_ERROR_CLASS;
+    const limn_domain *const domain = limn_domain_get((limn_domain_kind) class->domain);
+    if (class->control_count < domain->corner_count) return LIMN_ERROR_CLASS;
+    if (class->depth == LIMN_FORMAT_PIECE_DEPTH) return validate_parts(pack, class);
+    if (class->depth != LIMN_FORMAT_DEPTH) return LIMN_ERROR_CLASS;
+    if (class->pair_count && (class->control_count > LIMN_FORMAT_PAIRED_MAX ||
+                              2u * class->pair_count >= class->control_count))
+        return LIMN_ERROR_CLASS;
+    return are_tables_inside(tables, class->table_offset, class->table_count, class->control_count,
+                             limn_file_row_stride(class))
+               ? LIMN_OK
+               : LIMN_ERROR_CLASS;
+}
+
 static limn_result validate_classes(const limn_pack *pack) {
     if (!chunk_has_size(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_CLASSES, pack->class_count,
                         sizeof(limn_file_class)))
@@ -170,24 +242,9 @@ static limn_result validate_classes(const limn_pack *pack) {
 
     const limn_file_class *const classes =
         chunk_data(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_CLASSES);
-    for (uint32_t c = 0; c < pack->class_count; c++) {
-        const limn_file_class *const class = &classes[c];
-        if (class->domain >= LIMN_DOMAIN_COUNT || class->depth != LIMN_LEVEL_MAX ||
-            class->control_count > LIMN_FORMAT_CONTROLS_MAX)
-            return LIMN_ERROR_CLASS;
-        const limn_domain *const domain = limn_domain_get((limn_domain_kind) class->domain);
-        if (class->control_count < domain->corner_count) return LIMN_ERROR_CLASS;
-        if (class->pair_count && (class->control_count > LIMN_FORMAT_PAIRED_MAX ||
-                                  2u * class->pair_count >= class->control_count))
-            return LIMN_ERROR_CLASS;
-        const uint64_t column_size = limn_file_row_stride(class) * sizeof(float);
-        if (class->table_offset % LIMN_FORMAT_ALIGNMENT != 0 ||
-            class->table_offset > tables->size ||
-            (class->table_count != 1 && class->table_count != 3) ||
-            (uint64_t) class->table_count * class->control_count >
-                (tables->size - class->table_offset) / column_size)
-            return LIMN_ERROR_CLASS;
-    }
+    TRY(validate_pieces(pack, tables));
+    for (uint32_t c = 0; c < pack->class_count; c++)
+        TRY(validate_class(pack, tables, &classes[c]));
     if (!all_finite((const float *)(const void *)bytes_at(pack, tables->offset),
                     (size_t)tables->size / sizeof(float)))
         return LIMN_ERROR_TABLE;
@@ -204,8 +261,10 @@ static limn_result validate_mesh_sizes(const limn_pack *pack, uint32_t m) {
         return LIMN_ERROR_MESH;
     const limn_file_mesh *const record = chunk_data(pack, m, LIMN_CHUNK_MESH);
     if (record->domain >= LIMN_DOMAIN_COUNT ||
+        (record->point_count != record->control_count &&
+         record->point_count / 2 < record->control_count) ||
         record->hole_count > UINT32_MAX - record->patch_count ||
-        !chunk_has_size(pack, m, LIMN_CHUNK_CONTROLS, record->control_count, 3 * sizeof(float)) ||
+        !chunk_has_size(pack, m, LIMN_CHUNK_CONTROLS, record->point_count, 3 * sizeof(float)) ||
         !chunk_has_size(pack, m, LIMN_CHUNK_RUNS, record->run_count, sizeof(limn_file_run)) ||
         !chunk_has_size(pack, m, LIMN_CHUNK_FACES, record->patch_count, sizeof(uint32_t)) ||
         !chunk_has_size(pack, m, LIMN_CHUNK_INDICES, record->index_count, sizeof(uint32_t)) ||
@@ -227,8 +286,10 @@ static limn_result validate_runs(const limn_pack *pack, const limn_mesh *mesh, u
         const limn_file_class *const class = &mesh->classes[run->class_index];
         const uint32_t slot_size = limn_file_slot_size(class);
         slot += slot % slot_size;
+        const bool in_pieces = class->depth == LIMN_FORMAT_PIECE_DEPTH;
         if (class->domain != mesh->domain->kind || run->patch_count == 0 ||
-            run->first_patch != patch || run->first_index != index || run->first_slot != slot)
+            in_pieces != (mesh->point_count > mesh->control_count) || run->first_patch != patch ||
+            run->first_index != index || run->first_slot != slot)
             return LIMN_ERROR_RUN;
         const uint64_t count = (uint64_t)run->patch_count * class->control_count;
         if (slot > slots_size || count > index_count - index ||
@@ -247,10 +308,16 @@ static uint32_t slot_at(const uint8_t *slots, uint32_t slot_size, uint32_t k) {
     return slot_size == 1 ? slots[k] : slots[2 * k] | (uint32_t)slots[2 * k + 1] << 8;
 }
 
+/// What indices of a class may be.
+typedef struct index_range {
+    uint32_t corner_count;
+    uint32_t begin, corner_end, end; ///< of corners and of all
+} index_range;
+
 /// The slots name the control points of a patch in strictly ascending order. So each is named once,
 /// and there is none but those.
 static limn_result validate_patch(const uint32_t *indices, const uint8_t *slots, uint32_t slot_size,
-                                  uint32_t count, uint32_t control_count) {
+                                  uint32_t count, const index_range *range) {
     bool inside = true, ascending = true;
     uint32_t last = 0;
     for (uint32_t k = 0; k < count; k++)
@@ -258,10 +325,12 @@ static limn_result validate_patch(const uint32_t *indices, const uint8_t *slots,
     if (!inside) return LIMN_ERROR_SLOT;
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t index = indices[slot_at(slots, slot_size, k)];
-        ascending &= k == 0 || index > last;
+        ascending &= k == 0 ? index >= range->begin : index > last;
         last = index;
     }
-    return ascending && last < control_count ? LIMN_OK : LIMN_ERROR_INDEX;
+    for (uint32_t corner = 0; corner < range->corner_count; corner++)
+        ascending &= indices[corner] < range->corner_end;
+    return ascending && last < range->end ? LIMN_OK : LIMN_ERROR_INDEX;
 }
 
 static limn_result validate_patches(const limn_mesh *mesh, const limn_file_run *run) {
@@ -269,8 +338,13 @@ static limn_result validate_patches(const limn_mesh *mesh, const limn_file_run *
     const uint32_t count = class->control_count, slot_size = limn_file_slot_size(class);
     const uint32_t *indices = mesh->indices + run->first_index;
     const uint8_t *slots = mesh->slots + run->first_slot;
+    const uint32_t first_corner = limni_first_corner(mesh, class);
+    const index_range range = {.corner_count = mesh->domain->corner_count,
+                               .begin = first_corner,
+                               .corner_end = first_corner + mesh->control_count,
+                               .end = first_corner ? mesh->point_count : mesh->control_count};
     for (uint32_t p = 0; p < run->patch_count; p++) {
-        TRY(validate_patch(indices, slots, slot_size, count, mesh->control_count));
+        TRY(validate_patch(indices, slots, slot_size, count, &range));
         indices += count;
         slots += (size_t)count * slot_size;
     }
@@ -282,6 +356,27 @@ static limn_result validate_faces(const limn_mesh *mesh) {
         const limn_patch_face face = limn_mesh_face(mesh, p);
         if (face.face >= mesh->face_count || face.rotation >= mesh->domain->corner_count)
             return LIMN_ERROR_FACE;
+    }
+    return LIMN_OK;
+}
+
+/// An isolated mesh has stencils for all points behind its control points, and others have none.
+static limn_result validate_stencils(const limn_pack *pack, const limn_mesh *mesh, uint32_t m) {
+    const limn_file_chunk *const chunk = find_chunk(pack, m, LIMN_CHUNK_TERMS);
+    const uint32_t count = mesh->point_count - mesh->control_count;
+    if (!mesh->stencils != !chunk || !chunk != !count) return LIMN_ERROR_CHUNK;
+    if (!chunk) return LIMN_OK;
+    const uint64_t term_count = chunk->size / sizeof(limn_file_term);
+    if (!chunk_has_size(pack, m, LIMN_CHUNK_STENCILS, (uint64_t)count + 1, sizeof(uint32_t)) ||
+        chunk->size % sizeof(limn_file_term) != 0 || mesh->stencils[0] != 0 ||
+        mesh->stencils[count] != term_count)
+        return LIMN_ERROR_STENCIL;
+    for (uint32_t point = 0; point < count; point++) {
+        if (mesh->stencils[point] > mesh->stencils[point + 1]) return LIMN_ERROR_STENCIL;
+    }
+    for (uint64_t t = 0; t < term_count; t++) {
+        if (mesh->terms[t].control >= mesh->control_count || !all_finite(&mesh->terms[t].weight, 1))
+            return LIMN_ERROR_STENCIL;
     }
     return LIMN_OK;
 }
@@ -353,7 +448,7 @@ static limn_result validate_mesh(const limn_pack *pack, uint32_t m) {
     TRY(validate_mesh_sizes(pack, m));
     const limn_file_mesh *const record = chunk_data(pack, m, LIMN_CHUNK_MESH);
     const limn_mesh mesh = limn_pack_mesh(pack, m);
-    if (!all_finite(mesh.controls, (size_t)mesh.control_count * 3) ||
+    if (!all_finite(mesh.controls, (size_t)mesh.point_count * 3) ||
         !all_finite(mesh.bounds_min, 3) || !all_finite(mesh.bounds_max, 3) ||
         !all_finite(mesh.origin, 3))
         return LIMN_ERROR_CONTROLS;
@@ -362,6 +457,7 @@ static limn_result validate_mesh(const limn_pack *pack, uint32_t m) {
     for (uint32_t r = 0; r < mesh.run_count; r++)
         TRY(validate_patches(&mesh, &mesh.runs[r]));
     TRY(validate_faces(&mesh));
+    TRY(validate_stencils(pack, &mesh, m));
     TRY(validate_creases(pack, &mesh, m));
     return validate_normals(pack, &mesh, m);
 }
@@ -376,6 +472,10 @@ limn_result limn_pack_open(limn_pack *pack, const void *blob, size_t blob_size) 
     opened.class_count = header_of(&opened)->class_count;
     TRY(validate_directory(&opened));
     TRY(validate_text(&opened, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_INFO));
+    const limn_file_chunk *const pieces =
+        find_chunk(&opened, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_PIECES);
+    opened.pieces = optional_data(&opened, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_PIECES);
+    opened.piece_count = pieces ? (uint32_t)(pieces->size / sizeof(limn_file_piece)) : 0;
     TRY(validate_classes(&opened));
     opened.classes = chunk_data(&opened, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_CLASSES);
     for (uint32_t m = 0; m < opened.mesh_count; m++)
@@ -399,6 +499,7 @@ limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index) {
         .domain = limn_domain_get((limn_domain_kind)record->domain),
         .controls = chunk_data(pack, mesh_index, LIMN_CHUNK_CONTROLS),
         .control_count = record->control_count,
+        .point_count = record->point_count,
         .patch_count = record->patch_count,
         .face_count = record->patch_count + record->hole_count,
         .run_count = record->run_count,
@@ -409,6 +510,10 @@ limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index) {
         .tables = chunk_data(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES),
         .runs = chunk_data(pack, mesh_index, LIMN_CHUNK_RUNS),
         .classes = pack->classes,
+        .pieces = pack->pieces,
+        .columns = optional_data(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_COLUMNS),
+        .stencils = optional_data(pack, mesh_index, LIMN_CHUNK_STENCILS),
+        .terms = optional_data(pack, mesh_index, LIMN_CHUNK_TERMS),
         .normals = optional_data(pack, mesh_index, LIMN_CHUNK_NORMALS),
         .ring = optional_data(pack, mesh_index, LIMN_CHUNK_RINGS),
         .weights = optional_data(pack, mesh_index, LIMN_CHUNK_WEIGHTS),

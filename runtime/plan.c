@@ -36,7 +36,7 @@ typedef struct planner {
     const limn_view *views;
     uint32_t view_count;
     limn_lod_desc desc;
-    uint32_t *outside;        ///< [control_count] bit 6 v + p: outside of plane p of view v
+    uint32_t *outside;        ///< [point_count] bit 6 v + p: outside of plane p of view v
     limni_lod_levels *levels; ///< of edges, a block for each LIMNI_LOD_BLOCK patches
     limn_plan_patch *patches;
     uint32_t patch_count;
@@ -59,7 +59,7 @@ static void add_plane(const point_block *points, const float plane[4], uint32_t 
 }
 
 static void mark_outside(const planner *p) {
-    const uint32_t count = p->mesh->control_count;
+    const uint32_t count = p->mesh->point_count;
     point_block points = {0};
     for (uint32_t first = 0; first < count; first += LIMNI_LOD_BLOCK) {
         uint32_t outside[LIMNI_LOD_BLOCK] = {0};
@@ -101,11 +101,13 @@ static inline bool may_be_seen(const planner *p, const uint32_t *indices, uint32
 
 // ---- Listing
 
-/// errors  [corner_count]; NULL: levels do not ask for them
-static inline void set_edges(const float *controls, const uint32_t *indices, const uint16_t *errors,
-                             uint32_t corner_count, uint32_t at, limni_lod_block *block) {
+/// first_corner  index that stands for control point 0 at corners
+/// errors        [corner_count]; NULL: levels do not ask for them
+static inline void set_edges(const float *controls, const uint32_t *indices, uint32_t first_corner,
+                             const uint16_t *errors, uint32_t corner_count, uint32_t at,
+                             limni_lod_block *block) {
     for (uint32_t corner = 0; corner < corner_count; corner++) {
-        const float *const point = controls + 3 * (size_t)indices[corner];
+        const float *const point = controls + 3 * (size_t)(indices[corner] - first_corner);
         block->corners[corner][0][at] = point[0];
         block->corners[corner][1][at] = point[1];
         block->corners[corner][2][at] = point[2];
@@ -125,14 +127,15 @@ static inline void list_run(planner *p, const limn_file_run *run, uint32_t corne
     const limn_mesh *const mesh = p->mesh;
     const float *const controls = p->controls;
     const uint16_t *const errors = p->desc.lod == LIMN_LOD_ERROR ? mesh->errors : NULL;
-    const uint32_t count = mesh->classes[run->class_index].control_count;
+    const limn_file_class *const class = &mesh->classes[run->class_index];
+    const uint32_t count = class->control_count, first_corner = limni_first_corner(mesh, class);
     const uint32_t *indices = mesh->indices + run->first_index;
     for (uint32_t i = 0; i < run->patch_count; i++, indices += count) {
         const uint32_t patch = run->first_patch + i, at = p->patch_count % LIMNI_LOD_BLOCK;
         if (!may_be_seen(p, indices, corner_count, count)) continue;
         if (p->desc.keep_fn && !p->desc.keep_fn(p->desc.keep_user, patch)) continue;
-        set_edges(controls, indices, errors ? errors + (size_t)patch * corner_count : NULL,
-                  corner_count, at, block);
+        set_edges(controls, indices, first_corner,
+                  errors ? errors + (size_t)patch * corner_count : NULL, corner_count, at, block);
         p->patches[p->patch_count++].patch = patch;
         if (at == LIMNI_LOD_BLOCK - 1) measure_block(p, block);
     }
@@ -259,7 +262,7 @@ static plan_layout lay_out(const limn_mesh *mesh) {
     plan_layout l = {.draws = patch_count * sizeof(limn_plan_patch)};
     l.levels = l.draws + patch_count * sizeof(limn_draw);
     l.outside = l.levels + block_count * sizeof(limni_lod_levels);
-    l.size = l.outside + (size_t)mesh->control_count * sizeof(uint32_t);
+    l.size = l.outside + (size_t)mesh->point_count * sizeof(uint32_t);
     return l;
 }
 

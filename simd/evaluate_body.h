@@ -5,6 +5,8 @@
  */
 #include "control_normals_body.h"
 #include "morph.h"
+#include "pieces.h"
+#include "refine_body.h"
 #include "stores.h"
 
 #if defined(__FAST_MATH__)
@@ -20,11 +22,6 @@ static inline size_t slot_of(const void *slots, uint32_t slot_size, size_t k) {
 
 static inline quad gather_point(const float *controls, uint32_t index, quad origin) {
     return quad_subtract(quad_load_point(controls + 3 * (size_t)index), origin);
-}
-
-static inline void set_term(term *dst, quad point, uint32_t column) {
-    quad_store(dst, point);
-    dst->column = column;
 }
 
 /// The control points of one patch in ascending order.
@@ -61,18 +58,24 @@ static inline void gather_pairs(const uint32_t *indices, size_t count, size_t pa
         set_term(out++, gather_point(controls, indices[slot], origin), column += row_stride);
 }
 
-/// What lies behind the last row of any level is read but not used.
-static inline void clear_padding(const limn_domain *domain, vectors *rows) {
-    for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
-        for (int axis = 0; axis < 3; axis++)
-            lanes_store(&rows->axes[axis][domain->row_counts[level]], lanes_zero());
-    }
-}
-
 /// What one patch is between summing and storing.
 typedef struct scratch {
     vectors positions, along, across;
 } scratch;
+
+static inline void clear_rows(scratch *rows, size_t first) {
+    for (int axis = 0; axis < 3; axis++) {
+        lanes_store(&rows->positions.axes[axis][first], lanes_zero());
+        lanes_store(&rows->along.axes[axis][first], lanes_zero());
+        lanes_store(&rows->across.axes[axis][first], lanes_zero());
+    }
+}
+
+/// What lies behind the last row of any level is read but not used.
+static inline void clear_padding(const limn_domain *domain, scratch *rows) {
+    for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++)
+        clear_rows(rows, domain->row_counts[level]);
+}
 
 // ---- Storing
 
@@ -98,11 +101,13 @@ static inline part normal_part(const limni_target *target) {
 
 /// The corners have the normals of their control points, so that all patches around one agree, or
 /// all on one side.
-static inline void set_corner_normals(const uint32_t *corners, size_t corner_count,
-                                      const float *control_normals, vectors *normals) {
+static inline void set_corner_normals(const uint32_t *corners, uint32_t first_corner,
+                                      size_t corner_count, const float *control_normals,
+                                      vectors *normals) {
     for (size_t corner = 0; corner < corner_count; corner++) {
+        const float *const normal = control_normals + 3 * (size_t)(corners[corner] - first_corner);
         for (size_t axis = 0; axis < 3; axis++)
-            normals->axes[axis][corner] = control_normals[3 * (size_t)corners[corner] + axis];
+            normals->axes[axis][corner] = normal[axis];
     }
 }
 
@@ -125,9 +130,10 @@ static inline void pack_normals(limn_normal_format format, size_t row_count, vec
 /// What is stored of a patch.
 typedef struct wanted {
     const limn_plan_patch *item;  ///< NULL: all rows where they are
-    const uint32_t *corners;      ///< indices of their normals
+    const uint32_t *corners;      ///< indices of their normals,
+    uint32_t first_corner;        ///< counted from here
     const float *control_normals; ///< NULL: no normals
-    const limni_layout *layout;   ///< of tangents
+    const limni_run *run;
     uint32_t level;
     size_t row_count;
 } wanted;
@@ -143,34 +149,58 @@ static inline void place_edge_normals(const limni_layout *layout, size_t corner_
         for (size_t r = 0; r < count && r < 4; r++)
             copy_row(normals, staged + r, places[r]);
         for (size_t r = 4; r < count; r += 4)
-            copy_four_rows(normals, staged + r, places[r]);
+            copy_four_rows(normals, staged + r, normals, places[r]);
     }
 }
 
-/// Unit normals from tangents, in place of the first of them, as they will be written. Vectors of
-/// rows inside go on into rows of edges, which therefore come later.
-static inline void make_normals(const limni_target *target, const wanted *what, scratch *rows) {
-    const limn_domain *const domain = target->domain;
+/// Of patches with a table. Vectors of rows inside go on into rows of edges, which therefore come
+/// later.
+static inline void find_table_normals(const limn_domain *domain, const wanted *what,
+                                      scratch *rows) {
+    const limni_layout *const layout = what->run->tangent_layout;
     for (uint32_t level = LIMNI_INSIDE_LEVEL; level <= what->level; level++) {
         const size_t first = limni_first_inside(domain, level);
         find_normals(&rows->across, first, domain->row_counts[level] - first, &rows->along);
     }
     find_normals(&rows->across, STAGED,
-                 domain->corner_count * limni_padded(what->layout->edge_counts[what->level]),
+                 domain->corner_count * limni_padded(layout->edge_counts[what->level]),
                  &rows->along);
-    place_edge_normals(what->layout, domain->corner_count, what->level, &rows->along);
-    set_corner_normals(what->corners, domain->corner_count, what->control_normals, &rows->along);
+    place_edge_normals(layout, domain->corner_count, what->level, &rows->along);
+}
+
+static inline void find_piece_normals(const wanted *what, scratch *staged, vectors *normals) {
+    const limni_pieces *const pieces = what->run->pieces;
+    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++) {
+        const limni_piece *const piece = &what->run->of_pieces[p];
+        find_normals(&staged->across, piece->first_place, piece->tangents->counts[what->level],
+                     &staged->along);
+    }
+    place_rows(pieces->normal_copies, pieces->normal_copy_counts[what->level], &staged->along,
+               normals);
+}
+
+/// Unit normals from tangents, in place of the first of them, as they will be written.
+static inline void make_normals(const limni_target *target, const wanted *what, scratch *staged,
+                                scratch *rows) {
+    const limn_domain *const domain = target->domain;
+    if (what->run->pieces) {
+        find_piece_normals(what, staged, &rows->along);
+    } else {
+        find_table_normals(domain, what, rows);
+    }
+    set_corner_normals(what->corners, what->first_corner, domain->corner_count,
+                       what->control_normals, &rows->along);
     if (what->item) morph_patch(domain, what->item, true, &rows->along);
     pack_normals(target->normal_format, what->row_count, &rows->along);
 }
 
 static LIMNI_NOINLINE void store_patch(const limni_target *target, const parts *to,
-                                       const wanted *what, scratch *rows) {
+                                       const wanted *what, scratch *staged, scratch *rows) {
     const float *const planes = (const float *)(const void *)rows;
     if (what->item) morph_patch(target->domain, what->item, false, &rows->positions);
     if (target->position_format == LIMN_POSITION_UNORM16X4)
         pack_unorm16x4(target, what->row_count, &rows->positions);
-    if (what->control_normals) make_normals(target, what, rows);
+    if (what->control_normals) make_normals(target, what, staged, rows);
     if (target->streaming) {
         stream_parts(to, planes, what->row_count);
     } else {
@@ -189,7 +219,7 @@ typedef struct chosen {
 
 /// The terms of one patch.
 typedef struct lists {
-    term *ascending; ///< [control_count]
+    term *ascending; ///< [control_count]; for pieces three times as many, and one
     term *absolute;  ///< [LIMNI_PLAIN_TERMS] the same relative to nothing; NULL: not wanted
     term *folded;    ///< [LIMNI_PLAIN_TERMS]
 } lists;
@@ -280,6 +310,55 @@ static inline void sum_patch(patch *p, const limni_run *run, const chosen *which
     if (normals) sum_tangents(p, run, which, g, domain->corner_count, rows);
 }
 
+/// Both tangents of the rows of all pieces. Those of edges are relative to the end that comes first,
+/// and those inside to a corner.
+static inline void sum_all_piece_tangents(const limni_run *run, const chosen *which,
+                                          const float *controls, const piece_points *points,
+                                          size_t corner_count, scratch *staged) {
+    vectors *const out[2] = {&staged->along, &staged->across};
+    const uint32_t *const corners = which->indices;
+    for (size_t p = 0; p < LIMNI_PIECE_COUNT; p++) {
+        const limni_piece *const piece = &run->of_pieces[p];
+        const uint32_t end = piece->tangents->counts[which->level];
+        uint32_t first = 0;
+        for (size_t half = 0; half < 2 && p < corner_count;
+             half++, first += LIMN_FORMAT_ROW_BLOCK) {
+            const size_t edge = half == 0 ? p : p > 0 ? p - 1 : corner_count - 1;
+            const uint32_t a = corners[edge], b = corners[edge + 1 < corner_count ? edge + 1 : 0];
+            const float *const origin = controls + 3 * (size_t)(a < b ? a : b);
+            const uint32_t behind = first + LIMN_FORMAT_ROW_BLOCK;
+            sum_piece_tangents(piece, points, origin, first, end < behind ? end : behind, out);
+        }
+        sum_piece_tangents(piece, points, controls + 3 * (size_t)corners[0], first, end, out);
+    }
+}
+
+/// All sums of one patch in pieces.
+static inline void sum_pieces(const limni_run *run, const chosen *which, const gathering *g,
+                              const float *origin, const limn_domain *domain, bool normals,
+                              scratch *staged, scratch *rows) {
+    const limni_pieces *const pieces = run->pieces;
+    const size_t count = run->control_count;
+    const quad from = quad_load_point(origin);
+    term *const relative = g->to.ascending, *const absolute = relative + count;
+    if (normals) {
+        gather(which->indices, which->slots, g->slot_size, count, 1, g->controls, from, relative,
+               absolute);
+    } else {
+        gather(which->indices, which->slots, g->slot_size, count, 1, g->controls, from, relative,
+               NULL);
+    }
+    const piece_points points = {.relative = {relative, absolute},
+                                 .absolute = {absolute, absolute + count},
+                                 .buffer = absolute + count};
+    for (size_t p = 0; p < LIMNI_PIECE_COUNT; p++)
+        sum_piece_positions(&run->of_pieces[p], &points, origin, which->level, &staged->positions);
+    place_rows(pieces->position_copies, pieces->position_copy_counts[which->level],
+               &staged->positions, &rows->positions);
+    if (normals)
+        sum_all_piece_tangents(run, which, g->controls, &points, domain->corner_count, staged);
+}
+
 /// Whether all that is wanted are positions as three floats, one behind the other.
 static inline bool is_tight(const limni_points *from, const limni_target *target) {
     return !from->normals && target->position_format == LIMN_POSITION_FLOAT3 &&
@@ -305,10 +384,9 @@ static LIMNI_INLINE void evaluate_patches(const limni_run *run, const gathering 
         p.even = (terms){g->to.folded, g->to.folded + even_count};
         p.odd = (terms){g->to.folded + even_count, g->to.folded + (count - 1)};
     }
-    scratch rows;
-    clear_padding(target->domain, &rows.positions);
-    clear_padding(target->domain, &rows.along);
-    clear_padding(target->domain, &rows.across);
+    scratch rows, staged;
+    clear_padding(target->domain, &rows);
+    if (run->pieces) clear_rows(&staged, LIMNI_PIECE_PLACES);
 
     for (size_t i = 0; i < run->patch_count; i++) {
         const limn_plan_patch *const item = run->items ? &run->items[i] : NULL;
@@ -319,7 +397,12 @@ static LIMNI_INLINE void evaluate_patches(const limni_run *run, const gathering 
                               .level = item ? item->level : target->level};
         const size_t row_count = target->domain->row_counts[which.level];
         to.first = item ? item->first_vertex : i * row_count;
-        sum_patch(&p, run, &which, g, origin, target->domain, !tight && from->normals, &rows);
+        if (run->pieces) {
+            sum_pieces(run, &which, g, from->origin, target->domain, !tight && from->normals,
+                       &staged, &rows);
+        } else {
+            sum_patch(&p, run, &which, g, origin, target->domain, !tight && from->normals, &rows);
+        }
         if (tight) {
             if (item) morph_patch(target->domain, item, false, &rows.positions);
             store_words(&position, 3, (const float *)(const void *)&rows, base_of(&to, 0),
@@ -331,11 +414,12 @@ static LIMNI_INLINE void evaluate_patches(const limni_run *run, const gathering 
                                 : which.indices;
         const wanted what = {.item = item,
                              .corners = corners,
+                             .first_corner = run->corner_normals ? 0 : run->first_corner,
                              .control_normals = from->normals,
-                             .layout = run->tangent_layout,
+                             .run = run,
                              .level = which.level,
                              .row_count = row_count};
-        store_patch(target, &to, &what, &rows);
+        store_patch(target, &to, &what, &staged, &rows);
     }
 }
 
@@ -347,7 +431,7 @@ static void evaluate_run(const limni_run *run, const limni_points *from,
                    .slot_size = run->slot_size,
                    .to = {.absolute = apart ? absolute : NULL, .folded = folded}};
     if (run->slot_size == 1) {
-        _Alignas(16) term ascending[LIMN_FORMAT_NARROW_SLOTS];
+        _Alignas(16) term ascending[3 * LIMN_FORMAT_NARROW_SLOTS + 1];
         g.slot_size = 1;
         g.to.ascending = ascending;
         if (is_tight(from, target)) {
@@ -356,7 +440,7 @@ static void evaluate_run(const limni_run *run, const limni_points *from,
             evaluate_patches(run, &g, from, target, false);
         }
     } else {
-        _Alignas(16) term ascending[LIMN_FORMAT_CONTROLS_MAX];
+        _Alignas(16) term ascending[3 * LIMN_FORMAT_CONTROLS_MAX + 1];
         g.slot_size = 2;
         g.to.ascending = ascending;
         evaluate_patches(run, &g, from, target, false);

@@ -8,5 +8,6 @@ const limn_kernels limni_kernels_neon = {
     .isa = LIMN_ISA_NEON,
     .family = LIMN_FAMILY_REPRODUCIBLE,
     .evaluate = evaluate_run,
+    .refine = refine_mesh,
     .control_normals = find_control_normals,
 };

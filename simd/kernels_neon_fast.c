@@ -9,5 +9,6 @@ const limn_kernels limni_kernels_neon_fast = {
     .isa = LIMN_ISA_NEON,
     .family = LIMN_FAMILY_FAST,
     .evaluate = evaluate_run,
+    .refine = refine_mesh,
     .control_normals = find_control_normals,
 };

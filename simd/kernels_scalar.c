@@ -8,5 +8,6 @@ const limn_kernels limni_kernels_scalar = {
     .isa = LIMN_ISA_SCALAR,
     .family = LIMN_FAMILY_REPRODUCIBLE,
     .evaluate = evaluate_run,
+    .refine = refine_mesh,
     .control_normals = find_control_normals,
 };

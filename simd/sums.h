@@ -28,9 +28,9 @@ static inline void copy_row(vectors *rows, size_t from, size_t to) {
         rows->axes[axis][to] = rows->axes[axis][from];
 }
 
-static inline void copy_four_rows(vectors *rows, size_t from, size_t to) {
+static inline void copy_four_rows(const vectors *src, size_t from, vectors *dst, size_t to) {
     for (int axis = 0; axis < 3; axis++)
-        quad_store(&rows->axes[axis][to], quad_load(&rows->axes[axis][from]));
+        quad_store(&dst->axes[axis][to], quad_load(&src->axes[axis][from]));
 }
 
 /// A control point relative to some origin, and its column.
@@ -39,6 +39,11 @@ typedef struct term {
     uint32_t column; ///< from the start of the table, in floats
 } term;
 LIMN_STATIC_ASSERT(sizeof(term) == 16, "a term is a quad");
+
+static inline void set_term(term *dst, quad point, uint32_t column) {
+    quad_store(dst, point);
+    dst->column = column;
+}
 
 /// Terms to sum.
 typedef struct terms {

@@ -415,11 +415,11 @@ for name in torus32 sail cube; do says stdout "^$name "; done
 says stdout 'scheme=loop weights=loop boundary=edge-only'
 says stdout '^torus32  *0\.[0-9]*  *0\.[0-9]*  *0\.[0-9]*  *0\.[0-9]*$'
 works info --json several.limn
-for key in file version size table_size class_count meshes name faces control_points patches patch_size \
+for key in file version size table_size columns_size class_count piece_count meshes name faces control_points patches points points_size patch_size \
     bytes_per_face edge_errors classes use_count; do
     says stdout "^ *\"$key\": "
 done
-expect "version" "$(json version)" 3
+expect "version" "$(json version)" 4
 expect "size" "$(json size)" "$(size_of several.limn)"
 expect "meshes" "$(grep -c '"bytes_per_face"' stdout.txt)" 4
 expect "names" "$(sed -n 's/^ *"name": "\(.*\)",*$/\1/p' stdout.txt | tr '\n' ' ')" "torus32 sail cube torus32 "

@@ -150,15 +150,15 @@ static void test_layouts(void) {
 }
 
 /// The order within a level's new rows is part of the format: edges along their directions, then
-/// the interior: the mirror line, one side, the other.
+/// the interior: the mirror line, one side, piece by piece, and the other.
 static void test_order(void) {
     static const uint8_t level_2[9][2] = {{4, 0}, {12, 0}, {12, 4}, {4, 12}, {0, 12},
                                           {0, 4}, {4, 4},  {8, 4},  {4, 8}};
     for (int r = 0; r < 9; r++)
         CHECK_EQUAL(row_at(level_2[r][0], level_2[r][1]), (uint32_t)(6 + r));
-    static const uint8_t level_3[18][2] = {{2, 2},  {6, 6},  {4, 2},  {6, 2}, {8, 2},  {10, 2},
-                                           {12, 2}, {6, 4},  {10, 4}, {8, 6}, {2, 4},  {2, 6},
-                                           {2, 8},  {2, 10}, {2, 12}, {4, 6}, {4, 10}, {6, 8}};
+    static const uint8_t level_3[18][2] = {{2, 2},  {6, 6},  {4, 2}, {12, 2}, {10, 4}, {10, 2},
+                                           {6, 2},  {8, 2},  {6, 4}, {8, 6},  {2, 4},  {2, 12},
+                                           {4, 10}, {2, 10}, {2, 6}, {2, 8},  {4, 6},  {6, 8}};
     for (int r = 0; r < 18; r++)
         CHECK_EQUAL(row_at(level_3[r][0], level_3[r][1]), (uint32_t)(27 + r));
     CHECK_EQUAL(row_at(8, 0), 3u);

@@ -74,10 +74,11 @@ static bool find_boundary(subject *s) {
     return any;
 }
 
-static bool load(subject *s, const char *path) {
+static bool load(subject *s, const char *path, limn_isolate isolate) {
     const void *blob;
     size_t size;
-    *s = (subject){.baker = limn_baker_create(&(limn_bake_desc){.normals = LIMN_NORMALS_EXACT})};
+    const limn_bake_desc desc = {.normals = LIMN_NORMALS_EXACT, .isolate = isolate};
+    *s = (subject){.baker = limn_baker_create(&desc)};
     if (limn_baker_add_file(s->baker, path) != LIMN_BAKE_OK) return false;
     CHECK_EQUAL(limn_baker_finish(s->baker, &blob, &size), LIMN_BAKE_OK);
     CHECK_EQUAL(limn_pack_open(&s->pack, blob, size), LIMN_OK);
@@ -506,9 +507,9 @@ static void test_frame(subject *s, int frame) {
     frame_count++;
 }
 
-static void visit(const char *path) {
+static void visit_as(const char *path, limn_isolate isolate) {
     subject s;
-    if (load(&s, path)) {
+    if (load(&s, path, isolate)) {
         mesh_count++;
         open_count += find_boundary(&s);
         for (int frame = 0; frame < FRAMES_PER_MESH; frame++)
@@ -517,10 +518,15 @@ static void visit(const char *path) {
     unload(&s);
 }
 
+static void visit(const char *path) {
+    visit_as(path, LIMN_ISOLATE_NEVER);
+    visit_as(path, LIMN_ISOLATE_ALWAYS);
+}
+
 /// This test must be able to fail: a weight that differs by one bit opens an edge.
 static void test_can_fail(const char *path) {
     subject s;
-    if (!CHECK(load(&s, path) && !find_boundary(&s))) return;
+    if (!CHECK(load(&s, path, LIMN_ISOLATE_NEVER) && !find_boundary(&s))) return;
     limn_view view = random_view(&s);
     view.plane_count = 0;
     const limn_lod_desc desc = {.lod = LIMN_LOD_UNIFORM, .level = 2.5f};

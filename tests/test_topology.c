@@ -120,12 +120,11 @@ static void check_tables(const limn_mesh *mesh) {
     double furthest = 0, smallest = 0;
     for (uint32_t r = 0; r < mesh->run_count; r++) {
         const limn_file_class *const class = &mesh->classes[mesh->runs[r].class_index];
-        const float *const table = mesh->tables + class->table_offset / sizeof(float);
         for (uint32_t row = 0; row < domain->row_counts[LIMN_LEVEL_MAX]; row++) {
-            const column_place place = place_of_row(class, false, row);
+            const column_place place = place_of_row(mesh, r, 0, row);
             double sum = 0;
             for (uint32_t slot = 0; slot < class->control_count; slot++) {
-                const double coefficient = coefficient_at(table, &place, slot);
+                const double coefficient = coefficient_at(&place, slot);
                 sum += coefficient;
                 smallest = fmin(smallest, coefficient);
             }
@@ -956,13 +955,14 @@ static void test_disagreement(void) {
                            .face_offsets = offsets,
                            .face_corners = faces[0]};
     const limni_rules rules = {0};
-    limni_classes classes = {0};
+    limni_classes classes = {0}, pieces = {0};
     limni_patches patches;
     limni_mesh mesh;
     CHECK_EQUAL(limni_mesh_build(&context, &source, &mesh), LIMN_BAKE_OK);
-    CHECK_EQUAL(limni_patches_build(&context, &mesh, &rules, &classes, &patches), LIMN_BAKE_OK);
+    CHECK_EQUAL(limni_patches_build(&context, &mesh, &rules, &classes, &pieces, &patches),
+                LIMN_BAKE_OK);
     classes.items[0].prints[1].along[0].positions ^= 1;
-    CHECK_EQUAL(limni_patches_build(&context, &mesh, &rules, &classes, &patches),
+    CHECK_EQUAL(limni_patches_build(&context, &mesh, &rules, &classes, &pieces, &patches),
                 LIMN_BAKE_INTERNAL);
     CHECK_CONTAINS(context.error, "disagree on their common edge");
     limni_release_all(&context);

@@ -27,12 +27,10 @@ typedef struct subject {
 
 static unsigned long long total_vertices, total_meshes, refused_meshes, split_vertices;
 
-static bool load(subject *s, const char *path, uint32_t repair, limn_weights weights) {
-    const limn_bake_desc desc = {
-        .repair = repair, .weights = weights, .normals = LIMN_NORMALS_EXACT};
+static bool load(subject *s, const char *path, const limn_bake_desc *desc) {
     const void *blob;
     size_t size;
-    *s = (subject){.path = path, .context = {.desc = desc}, .baker = limn_baker_create(&desc)};
+    *s = (subject){.path = path, .context = {.desc = *desc}, .baker = limn_baker_create(desc)};
     if (limn_baker_add_file(s->baker, path) != LIMN_BAKE_OK) return false;
     CHECK_EQUAL(limn_baker_finish(s->baker, &blob, &size), LIMN_BAKE_OK);
     CHECK_EQUAL(limn_pack_open(&s->pack, blob, size), LIMN_OK);
@@ -157,15 +155,14 @@ static void check_mesh(subject *s) {
 /// Below 0 only where it is what two floats leave, and with Chaikin's method (docs/design.md).
 static double least_coefficient = -0x1p-26;
 
-static void check_tables(const limn_pack *pack, const limn_mesh *mesh) {
-    for (uint32_t c = 0; c < pack->class_count; c++) {
-        const limn_file_class *const class = &mesh->classes[c];
-        const float *const table = mesh->tables + class->table_offset / sizeof(float);
+static void check_tables(const limn_mesh *mesh) {
+    for (uint32_t r = 0; r < mesh->run_count; r++) {
+        const limn_file_class *const class = &mesh->classes[mesh->runs[r].class_index];
         for (uint32_t row = 0; row < 153; row++) {
-            const column_place place = place_of_row(class, false, row);
+            const column_place place = place_of_row(mesh, r, 0, row);
             double sum = 0;
             for (uint32_t slot = 0; slot < class->control_count; slot++) {
-                const double coefficient = coefficient_at(table, &place, slot);
+                const double coefficient = coefficient_at(&place, slot);
                 CHECK(coefficient >= least_coefficient);
                 sum += coefficient;
             }
@@ -176,22 +173,58 @@ static void check_tables(const limn_pack *pack, const limn_mesh *mesh) {
     }
 }
 
-static void visit(const char *path) {
+/// The points of level 1 likewise; and those of the bind pose are what any kernel makes of it.
+static void check_points(limn_mesh *mesh) {
+    const uint32_t count = mesh->point_count - mesh->control_count;
+    float(*const points)[3] = calloc(mesh->point_count, sizeof *points);
+    const size_t size = mesh->point_count * sizeof *points;
+    for (uint32_t point = 0; point < count; point++) {
+        double sum = 0;
+        for (uint32_t t = mesh->stencils[point]; t < mesh->stencils[point + 1]; t++) {
+            CHECK((double)mesh->terms[t].weight >= least_coefficient);
+            sum += (double)mesh->terms[t].weight;
+        }
+        CHECK_NEAR(sum, 1.0, 0x1p-24);
+    }
+    for (uint32_t isa = LIMN_ISA_SCALAR; isa <= limn_isa_supported(); isa <<= 1) {
+        mesh->kernels = limn_kernels_select(isa, LIMN_FAMILY_FAST);
+        memcpy(points, mesh->controls, mesh->control_count * sizeof *points);
+        limn_mesh_refine(mesh, points[0]);
+        CHECK(memcmp(points, mesh->controls, size) == 0);
+        memset(points, 0, size);
+    }
+    free(points);
+}
+
+static void check_all(subject *s) {
+    check_mesh(s);
+    check_tables(&s->baked);
+    check_points(&s->baked);
+}
+
+/// Bakes a mesh, mended if it must be, and checks it.
+static void check_file(const char *path, limn_bake_desc desc) {
     subject s;
-    bool loaded = load(&s, path, 0, LIMN_WEIGHTS_LOOP);
+    bool loaded = load(&s, path, &desc);
     if (!loaded) {
         refused_meshes++;
         unload(&s);
-        loaded = load(&s, path, LIMN_REPAIR_ALL, LIMN_WEIGHTS_LOOP);
+        desc.repair = LIMN_REPAIR_ALL;
+        loaded = load(&s, path, &desc);
     }
     if (CHECK(loaded)) {
         total_meshes++;
-        check_mesh(&s);
-        check_tables(&s.pack, &s.baked);
+        check_all(&s);
     } else {
         fprintf(stderr, "    %s: %s\n", path, limn_baker_error(s.baker));
     }
     unload(&s);
+}
+
+static void visit(const char *path) {
+    check_file(path, (limn_bake_desc){.normals = LIMN_NORMALS_EXACT});
+    check_file(path,
+               (limn_bake_desc){.normals = LIMN_NORMALS_EXACT, .isolate = LIMN_ISOLATE_ALWAYS});
 }
 
 static void write_vertices(FILE *file, uint32_t count, double height) {
@@ -273,12 +306,9 @@ static void test_tagged(bool chaikin) {
 }
 
 static void test_warren(const char *path) {
-    subject s;
-    if (CHECK(load(&s, path, 0, LIMN_WEIGHTS_WARREN))) {
-        check_mesh(&s);
-        check_tables(&s.pack, &s.baked);
-    }
-    unload(&s);
+    check_file(path, (limn_bake_desc){.normals = LIMN_NORMALS_EXACT,
+                                      .weights = LIMN_WEIGHTS_WARREN,
+                                      .isolate = LIMN_ISOLATE_ALWAYS});
 }
 
 /// Puts the control points of every patch in slot order: what watertightness depends on is undone.
@@ -297,7 +327,7 @@ static void shuffle(const subject *s, uint8_t *slots) {
 /// This test must be able to fail: without the ascending order, shared vertices do differ.
 static void test_order_matters(const char *path) {
     subject s;
-    if (!CHECK(load(&s, path, 0, LIMN_WEIGHTS_LOOP))) return;
+    if (!CHECK(load(&s, path, &(limn_bake_desc){.normals = LIMN_NORMALS_EXACT}))) return;
     const limn_plan plan = limn_plan_uniform(&s.baked, LIMN_LEVEL_MAX);
     const limn_file_run *const last = &s.baked.runs[s.baked.run_count - 1];
     const size_t index_count =
@@ -319,7 +349,7 @@ static void test_order_matters(const char *path) {
 int main(void) {
     char path[4096];
     CHECK(mesh_files_visit(visit) > 0);
-    printf("%llu meshes (%llu of them repaired), %llu shared vertices compared, %llu of them on "
+    printf("%llu bakes (%llu of them repaired), %llu shared vertices compared, %llu of them on "
            "creases without their normals\n",
            total_meshes, refused_meshes, total_vertices, split_vertices);
     test_flat();

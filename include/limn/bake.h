@@ -61,6 +61,14 @@ typedef enum limn_normals {
     LIMN_NORMALS_EXACT ///< two tangents of the limit surface per row: tables three times as large
 } limn_normals;
 
+/// Whether patches are evaluated in pieces, the four faces that one level of subdivision makes of a
+/// base face. Its points are then evaluated first, once a frame (limn_mesh_refine()), and tables are
+/// few and small, however many kinds of surroundings the faces of a mesh have.
+typedef enum limn_isolate {
+    LIMN_ISOLATE_NEVER, ///< a table for every kind of surroundings
+    LIMN_ISOLATE_ALWAYS
+} limn_isolate;
+
 /// What may be mended, as bits. Done in this order.
 typedef enum limn_repair {
     LIMN_REPAIR_WELD = 1 << 0, ///< merge control points whose positions are equal
@@ -84,6 +92,7 @@ typedef struct limn_bake_desc {
     limn_creases creases;
     limn_creasing creasing;
     limn_normals normals;
+    limn_isolate isolate;
     uint32_t repair; ///< LIMN_REPAIR_… bits; 0: refuse what is not a clean manifold
     limn_bake_note_fn *note;
     limn_bake_progress_fn *progress;

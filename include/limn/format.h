@@ -22,7 +22,7 @@ extern "C" {
 #endif
 
 #define LIMN_FORMAT_MAGIC "LIMN"
-#define LIMN_FORMAT_VERSION 3u
+#define LIMN_FORMAT_VERSION 4u
 
 /// Alignment of the blob in memory and of every chunk in the file, in bytes.
 #define LIMN_FORMAT_ALIGNMENT 64u
@@ -36,9 +36,15 @@ extern "C" {
 /// The largest local base of a class, in control points: two corners of valence 1000, for instance.
 #define LIMN_FORMAT_CONTROLS_MAX 2048u
 
+/// Tables of pieces in a file.
+#define LIMN_FORMAT_PIECES_MAX 65536u
+
 /// A class that is its own mirror image has at most this many control points: longer sums are
 /// compensated, which pairs of rows cannot be.
 #define LIMN_FORMAT_PAIRED_MAX 24u
+
+/// In LIMN_CHUNK_COLUMNS, for a slot that a piece does not have.
+#define LIMN_FORMAT_NO_COLUMN 0xffffu
 
 /// The `mesh` of a chunk that belongs to the file and not to one of its meshes.
 #define LIMN_FORMAT_NO_MESH 0xffffffffu
@@ -52,11 +58,18 @@ extern "C" {
 #define LIMN_CHUNK_CLASSES LIMN_FORMAT_KIND('C', 'L', 'A', 'S') ///< limn_file_class[class_count]
 #define LIMN_CHUNK_TABLES                                                                          \
     LIMN_FORMAT_KIND('T', 'A', 'B', 'L') ///< float[]: the stencil tables of all classes
+
+/// Where meshes are isolated: limn_file_piece[]; and uint16_t[], of each class that is made of pieces
+/// first the four pieces, the corners' and the middle one, and then for each of them the column of
+/// each of the K slots, or LIMN_FORMAT_NO_COLUMN.
+#define LIMN_CHUNK_PIECES LIMN_FORMAT_KIND('P', 'I', 'E', 'C')
+#define LIMN_CHUNK_COLUMNS LIMN_FORMAT_KIND('C', 'O', 'L', 'S')
+
 #define LIMN_CHUNK_MESH LIMN_FORMAT_KIND('M', 'E', 'S', 'H') ///< limn_file_mesh, one per mesh
 #define LIMN_CHUNK_NAME                                                                            \
     LIMN_FORMAT_KIND('N', 'A', 'M', 'E') ///< text, zero-terminated, one per mesh
 #define LIMN_CHUNK_CONTROLS                                                                        \
-    LIMN_FORMAT_KIND('C', 'T', 'R', 'L') ///< float[control_count][3]: the bind pose
+    LIMN_FORMAT_KIND('C', 'T', 'R', 'L') ///< float[point_count][3]: the bind pose
 #define LIMN_CHUNK_RUNS LIMN_FORMAT_KIND('R', 'U', 'N', 'S') ///< limn_file_run[run_count]
 #define LIMN_CHUNK_FACES                                                                           \
     LIMN_FORMAT_KIND('F', 'A', 'C', 'E') ///< uint32_t[patch_count]: see limn_patch_face
@@ -66,6 +79,11 @@ extern "C" {
     LIMN_FORMAT_KIND('S', 'L', 'O', 'T') ///< uint8_t[] or uint16_t[]: slots, ascending by INDX
 #define LIMN_CHUNK_ERRORS                                                                          \
     LIMN_FORMAT_KIND('E', 'R', 'R', 'S') ///< uint16_t[patch_count][corners]: errors of edges
+
+/// In isolated meshes: uint32_t[point_count - control_count + 1], where the terms of each point begin,
+/// and end; and limn_file_term[].
+#define LIMN_CHUNK_STENCILS LIMN_FORMAT_KIND('S', 'T', 'N', 'C')
+#define LIMN_CHUNK_TERMS LIMN_FORMAT_KIND('T', 'E', 'R', 'M')
 
 /// In files with normals: limn_file_normal[control_count], uint32_t[] and float[].
 #define LIMN_CHUNK_NORMALS LIMN_FORMAT_KIND('N', 'R', 'M', 'L')
@@ -101,19 +119,40 @@ typedef struct limn_file_chunk {
     uint64_t size;   ///< in bytes, without padding
 } limn_file_chunk;
 
+/// What a class's `depth` is: of a table for all levels; or of its four pieces, the faces that a
+/// level of subdivision makes of a base face, where the mesh is isolated.
+#define LIMN_FORMAT_DEPTH 4u
+#define LIMN_FORMAT_PIECE_DEPTH 3u
+#define LIMN_FORMAT_PIECE_COUNT 4u
+
 /// One topology class: a table of `control_count` columns, each with one coefficient per row of the
 /// domain; or where the class is its own mirror image, per pair of rows (docs/format.md).
 typedef struct limn_file_class {
     uint64_t table_offset;  ///< of float[control_count][row_stride], in bytes from the start of the
-                            ///< tables chunk
+                            ///< tables chunk; with pieces, into the columns chunk
     uint32_t control_count; ///< K, the size of the local base
     uint16_t domain;        ///< limn_domain_kind
-    uint16_t depth;         ///< deepest level of the table; see limn_file_row_stride()
+    uint16_t depth;         ///< LIMN_FORMAT_DEPTH or LIMN_FORMAT_PIECE_DEPTH
     uint16_t valences[4];   ///< of the patch's corners, in row order; 0 beyond the domain's corners
     uint32_t boundary_corners; ///< bit c: corner c lies on a boundary
     uint16_t table_count;      ///< 1: positions; 3: then the tangents along and across
     uint16_t pair_count; ///< 0; or the class is its own mirror image, with this many pairs of slots
 } limn_file_class;
+
+/// The table of a piece. Its rows are those of the domain down to level 3, in the order of
+/// runtime/domain.h, without those that belong to another piece of the same patch.
+typedef struct limn_file_piece {
+    uint64_t table_offset;  ///< as for a class: of float[control_count][row_stride]
+    uint32_t control_count; ///< columns
+    uint16_t kind;          ///< 0: at a corner, 40 rows a column; 1: in the middle, 48
+    uint16_t table_count;   ///< as for a class
+} limn_file_piece;
+
+/// One term of a point of the first level of subdivision.
+typedef struct limn_file_term {
+    uint32_t control;
+    float weight;
+} limn_file_term;
 
 /// How the limit normal of a control point follows from the control points around it: two tangents,
 /// each a weighted sum of its ring, relative to it. Files with normals have one per control
@@ -136,10 +175,20 @@ static inline uint32_t limn_file_row_stride(const limn_file_class *file_class) {
     return file_class->pair_count ? 112 : 160;
 }
 
-/// Floats of all the tables of a class.
+/// Floats of all the tables of a class; 0 of one in pieces.
 static inline uint64_t limn_file_table_size(const limn_file_class *file_class) {
+    if (file_class->depth != LIMN_FORMAT_DEPTH) return 0;
     return (uint64_t)file_class->table_count * file_class->control_count *
            limn_file_row_stride(file_class);
+}
+
+static inline uint32_t limn_file_piece_stride(const limn_file_piece *piece) {
+    return piece->kind ? 48 : 40;
+}
+
+/// Floats of all the tables of a piece.
+static inline uint64_t limn_file_piece_table_size(const limn_file_piece *piece) {
+    return (uint64_t)piece->table_count * piece->control_count * limn_file_piece_stride(piece);
 }
 
 /// Bytes per slot of the patches of a class.
@@ -157,6 +206,8 @@ typedef struct limn_file_mesh {
     float bounds_max[3];
     float origin[3];     ///< see limn_mesh.origin
     uint32_t hole_count; ///< base faces without a patch
+    uint32_t point_count; ///< control_count; in isolated meshes with the points of level 1 behind
+    uint32_t reserved;
 } limn_file_mesh;
 
 /// Consecutive patches of one class. Patch p of the run has its control indices, by slot, at
@@ -180,7 +231,9 @@ LIMN_STATIC_ASSERT(sizeof(limn_file_class) == 32, "class");
 LIMN_STATIC_ASSERT(offsetof(limn_file_class, valences) == 16, "class.valences");
 LIMN_STATIC_ASSERT(sizeof(limn_file_normal) == 12, "normal");
 LIMN_STATIC_ASSERT(sizeof(limn_file_side) == 16, "side");
-LIMN_STATIC_ASSERT(sizeof(limn_file_mesh) == 64, "mesh");
+LIMN_STATIC_ASSERT(sizeof(limn_file_piece) == 16, "piece");
+LIMN_STATIC_ASSERT(sizeof(limn_file_term) == 8, "term");
+LIMN_STATIC_ASSERT(sizeof(limn_file_mesh) == 72, "mesh");
 LIMN_STATIC_ASSERT(offsetof(limn_file_mesh, bounds_min) == 24, "mesh.bounds_min");
 LIMN_STATIC_ASSERT(sizeof(limn_file_run) == 32, "run");
 LIMN_STATIC_ASSERT(offsetof(limn_file_run, first_index) == 16, "run.first_index");

@@ -69,6 +69,9 @@ uint32_t limn_version(void);
     X(LIMN_ERROR_INDEX,                                                                            \
       "a patch's control indices are out of range, or its slots do not order them")                \
     X(LIMN_ERROR_SLOT, "a patch's slot lies outside its class")                                    \
+    X(LIMN_ERROR_PIECE,                                                                            \
+      "a piece of a class is of an unknown kind, or lies outside the tables or its class")         \
+    X(LIMN_ERROR_STENCIL, "the stencils of level 1 are out of range, not finite or incomplete")    \
     X(LIMN_ERROR_NORMALS, "the data for normals are out of range, not finite or incomplete")
 
 typedef enum limn_result {
@@ -222,6 +225,8 @@ typedef struct limn_pack {
     uint32_t mesh_count;
     uint32_t class_count;
     const struct limn_file_class *classes; ///< [class_count], see format.h
+    const struct limn_file_piece *pieces;  ///< [piece_count] that classes are made of
+    uint32_t piece_count;
     const limn_kernels *kernels; ///< the best reproducible ones; replace them to use others
 } limn_pack;
 
@@ -229,8 +234,10 @@ typedef struct limn_pack {
 typedef struct limn_mesh {
     const char *name;
     const limn_domain *domain;
-    const float *controls; ///< [control_count][3]: the bind pose, model units
+    const float *controls; ///< [point_count][3]: the bind pose, model units
     uint32_t control_count;
+    uint32_t point_count; ///< control_count; of an isolated mesh more: the points of the first
+                          ///< level of subdivision follow, see limn_mesh_refine()
     uint32_t patch_count; ///< one per base face that is drawn
     uint32_t face_count;  ///< base faces, with the holes, which are not drawn
     uint32_t run_count;   ///< patches are ordered by class: runs of one class each
@@ -248,6 +255,10 @@ typedef struct limn_mesh {
     const float *tables;
     const struct limn_file_run *runs;
     const struct limn_file_class *classes;
+    const struct limn_file_piece *pieces;
+    const uint16_t *columns;               ///< of the slots of classes in their pieces
+    const uint32_t *stencils;              ///< [point_count - control_count + 1] into the terms
+    const struct limn_file_term *terms;    ///< of the points of level 1
     const struct limn_file_normal *normals; ///< NULL: the mesh was baked without normals
     const struct limn_file_side *sides;     ///< [normal_count - control_count]
     const uint32_t *corner_normals; ///< [patch_count][corner_count] the normals of the corners;
@@ -399,7 +410,7 @@ size_t limn_plan_size(const limn_mesh *mesh);
 /// The result is the same for whichever thread, and depends on nothing else. Does not allocate; any
 /// thread, with memory of its own. A frame of more than INT32_MAX vertices has no plan: 0 patches.
 ///
-/// controls   [mesh->control_count][3] floats, model units: those that will be evaluated
+/// controls   [mesh->point_count][3] floats, model units: those that will be evaluated
 /// views      [view_count] 1 to LIMN_VIEW_MAX, in the space of the control points
 /// desc       NULL: all defaults. LIMN_LOD_ERROR needs mesh->errors, which every baked mesh has
 /// templates  [limn_template_count()] as uploaded, for the draws; NULL: no draws are made
@@ -454,6 +465,15 @@ typedef struct limn_output {
     bool streaming;
 } limn_output;
 
+/// Fills in the points of the first level of subdivision, behind the control points of an isolated
+/// mesh: once a frame, before it is planned and evaluated. Nothing is to be done for other meshes,
+/// nor for the bind pose in mesh->controls, which has them. Does not allocate, never fails; any
+/// thread. The same input gives the same bits with every kernel.
+///
+/// controls  [mesh->point_count][3] floats, model units: the first control_count are read, and the
+///           rest are written
+void limn_mesh_refine(const limn_mesh *mesh, float *controls);
+
 /// Limit normals of all control points, and then of further sides of creases and faces at corners,
 /// which patches take by mesh->corner_normals: unit vectors, towards the side from which faces are
 /// counter-clockwise. Where the surface has no tangent plane, and at control points that no face
@@ -471,7 +491,7 @@ void limn_mesh_control_normals(const limn_mesh *mesh, const float *controls, flo
 /// neighbouring patches get the same bits with any. Both hold if all threads round to nearest and
 /// treat denormals alike, and where control points are finite; docs/design.md says more.
 ///
-/// controls    [mesh->control_count][3] floats, model units, tightly packed; must not overlap the
+/// controls    [mesh->point_count][3] floats, model units, tightly packed; must not overlap the
 ///             output
 /// begin, end  0 <= begin <= end <= plan->patch_count; an empty range is a no-op
 /// output      room for plan->vertex_count vertices, of which only those of the range are written

@@ -52,6 +52,8 @@ typedef struct made {
     limn_mesh mesh;
     limn_file_run runs[CLASSES];
     limn_file_class classes[CLASSES];
+    limn_file_piece pieces[CLASSES * LIMNI_PIECE_COUNT];
+    uint16_t *columns;
     float *tables;
     uint32_t *indices;
     uint8_t *slots;
@@ -61,8 +63,7 @@ typedef struct made {
 } made;
 
 /// Coefficients of a class: rows of different support, so that both ways to sum occur in one class.
-static void fill_table(const limn_file_class *class, float *table) {
-    const uint32_t control_count = class->control_count, stride = limn_file_row_stride(class);
+static void fill_table(uint32_t control_count, uint32_t stride, float *table) {
     for (uint32_t row = 0; row < stride; row++) {
         const uint32_t support = 1 + next_random() % control_count;
         for (uint32_t slot = 0; slot < control_count; slot++) {
@@ -100,42 +101,81 @@ static void fill_run(made *m, uint32_t c, uint64_t first_index, uint64_t first_s
     }
 }
 
-static void make(made *m) {
+/// One table of a class with three times as many rows. Returns its floats.
+static uint64_t make_table(made *m, uint32_t c, uint64_t table) {
+    limn_file_class *const class = &m->classes[c];
+    class->table_offset = table * sizeof(float);
+    class->pair_count = pair_counts[c];
+    const uint64_t size = limn_file_table_size(class);
+    for (uint32_t t = 0; t < 3; t++)
+        fill_table(control_counts[c], limn_file_row_stride(class),
+                   m->tables + table + t * size / 3);
+    return size;
+}
+
+/// The same of four pieces. Each has some of the slots, the corners among them, in any order.
+static uint64_t make_pieces(made *m, uint32_t c, uint64_t table, uint16_t **columns) {
+    const uint32_t count = control_counts[c];
+    uint16_t *const parts = *columns;
+    uint64_t size = 0;
+    m->classes[c].table_offset = (uint64_t)(parts - m->columns) * sizeof *parts;
+    m->classes[c].depth = LIMN_FORMAT_PIECE_DEPTH;
+    *columns += LIMNI_PIECE_COUNT * (1 + (size_t)count);
+    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++) {
+        const uint32_t index = c * LIMNI_PIECE_COUNT + p;
+        uint16_t *const of_piece = parts + LIMNI_PIECE_COUNT + (size_t)p * count;
+        uint16_t used = 0;
+        parts[p] = (uint16_t)index;
+        for (uint32_t slot = 0; slot < count; slot++) {
+            const bool has = slot < 3 || next_random() % 4;
+            of_piece[slot] = has ? used++ : LIMN_FORMAT_NO_COLUMN;
+        }
+        m->pieces[index] = (limn_file_piece){.table_offset = (table + size) * sizeof(float),
+                                             .control_count = used,
+                                             .kind = limni_piece_kind_of(p),
+                                             .table_count = 3};
+        const uint32_t stride = limn_file_piece_stride(&m->pieces[index]);
+        for (uint32_t t = 0; t < 3; t++)
+            fill_table(used, stride, m->tables + table + size + (size_t)t * used * stride);
+        size += 3 * (uint64_t)used * stride;
+    }
+    return (size + 15) / 16 * 16;
+}
+
+static void make(made *m, bool in_pieces) {
     uint64_t total = 0, index = 0, slot = 0;
     for (uint32_t c = 0; c < CLASSES; c++)
         total += control_counts[c];
-    m->tables =
-        aligned_alloc(64, 3 * total * 160 * sizeof(float)); // or less, where there are pairs
+    m->tables = aligned_alloc(64, 3 * (total + CLASSES) * 168 * sizeof(float)); // or less
+    m->columns = malloc(LIMNI_PIECE_COUNT * (total + CLASSES) * sizeof *m->columns);
+    uint16_t *columns = m->columns;
     m->indices = malloc(total * PATCHES * sizeof(uint32_t));
     m->slots = malloc(total * PATCHES * 2 + CLASSES);
     uint64_t table = 0;
     for (uint32_t c = 0; c < CLASSES; c++) {
         slot += slot % 2;
-        m->classes[c] = (limn_file_class){.table_offset = table * sizeof(float),
-                                          .control_count = control_counts[c],
-                                          .table_count = 3,
-                                          .pair_count = pair_counts[c],
-                                          .depth = LIMN_LEVEL_MAX};
+        m->classes[c] = (limn_file_class){
+            .control_count = control_counts[c], .table_count = 3, .depth = LIMN_FORMAT_DEPTH};
         m->runs[c] = (limn_file_run){.class_index = c,
                                      .first_patch = c * PATCHES,
                                      .patch_count = PATCHES,
                                      .first_index = index,
                                      .first_slot = slot};
-        const uint64_t table_size = limn_file_table_size(&m->classes[c]);
-        for (uint32_t t = 0; t < 3; t++)
-            fill_table(&m->classes[c], m->tables + table + t * table_size / 3);
+        table += in_pieces ? make_pieces(m, c, table, &columns) : make_table(m, c, table);
         fill_run(m, c, index, slot);
-        table += table_size;
         index += (uint64_t)control_counts[c] * PATCHES;
         slot += (uint64_t)control_counts[c] * PATCHES * limn_file_slot_size(&m->classes[c]);
     }
     m->mesh = (limn_mesh){.domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE),
-                          .control_count = CONTROLS,
+                          .control_count = in_pieces ? 0 : CONTROLS, // all are points of level 1
+                          .point_count = CONTROLS,
                           .patch_count = CLASSES * PATCHES,
                           .run_count = CLASSES,
                           .indices = m->indices,
                           .slots = m->slots,
                           .tables = m->tables,
+                          .pieces = m->pieces,
+                          .columns = m->columns,
                           .runs = m->runs,
                           .classes = m->classes,
                           .normals = &m->none};
@@ -282,15 +322,14 @@ static double bound(uint32_t terms, bool paired, double magnitude, double result
 static reference refer(const made *m, uint32_t c, uint32_t patch, uint32_t row, int axis) {
     const limn_file_class *const class = &m->classes[c];
     const limn_file_run *const run = &m->runs[c];
-    const float *const table = m->tables + class->table_offset / sizeof(float);
     const uint32_t *const indices =
         m->indices + run->first_index + (size_t)patch * class->control_count;
-    const column_place place = place_of_row(class, false, row);
+    const column_place place = place_of_row(&m->mesh, c, 0, row);
     const float origin = place.paired ? m->controls[indices[0]][axis] : m->mesh.origin[axis];
     double sum = 0, magnitude = fabs((double)origin) * place.paired;
     uint32_t terms = 0;
     for (uint32_t slot = 0; slot < class->control_count; slot++) {
-        const double coefficient = coefficient_at(table, &place, slot);
+        const double coefficient = coefficient_at(&place, slot);
         const float relative = m->controls[indices[slot]][axis] - origin; // rounded, as by kernels
         sum += coefficient * (double)relative;
         terms += coefficient != 0;
@@ -307,12 +346,10 @@ static reference refer(const made *m, uint32_t c, uint32_t patch, uint32_t row, 
 static double refer_tangent(const made *m, uint32_t c, uint32_t patch, uint32_t row, uint32_t table,
                             double tangent[3]) {
     const limn_file_class *const class = &m->classes[c];
-    const float *const coefficients =
-        m->tables + class->table_offset / sizeof(float) + table * limn_file_table_size(class) / 3;
     const uint32_t *const indices =
         m->indices + m->runs[c].first_index + (size_t)patch * class->control_count;
-    const column_place place = place_of_row(class, true, row);
-    const uint32_t edge = place.at / LIMNI_EDGE_ROWS, end = (edge + 1) % 3;
+    const column_place place = place_of_row(&m->mesh, c, table, row);
+    const uint32_t edge = place.edge, end = (edge + 1) % 3;
     uint32_t near = indices[0];
     if (edge < 3) near = indices[edge] < indices[end] ? indices[edge] : indices[end];
     const double sign = place.image && table == 2 ? -1 : 1; // a mirror turns the tangent across
@@ -321,14 +358,14 @@ static double refer_tangent(const made *m, uint32_t c, uint32_t patch, uint32_t 
         double magnitude = 0;
         tangent[axis] = 0;
         for (uint32_t slot = 0; slot < class->control_count; slot++) {
-            const double coefficient = coefficient_at(coefficients, &place, slot);
+            const double coefficient = coefficient_at(&place, slot);
             const double point =
                 (double)(m->controls[indices[slot]][axis] - m->controls[near][axis]);
             tangent[axis] += sign * coefficient * point;
             magnitude += (fabs(coefficient) + (place.paired ? 2.0 / class->control_count : 0)) *
                          fabs(point) * (place.paired ? 2 : 1);
         }
-        error = fmax(error, bound(class->control_count, place.paired, magnitude, tangent[axis]));
+        error = fmax(error, bound(place.column_count, place.paired, magnitude, tangent[axis]));
     }
     return error;
 }
@@ -391,9 +428,12 @@ static void test_precision(made *m, const limn_kernels *kernels, bool has_normal
 /// The bits of a whole evaluation at every level: the same from all reproducible kernels, whatever
 /// the compiler and its flags. If this changes, results change for everybody.
 static void test_golden(made *m, const limn_kernels *kernels) {
-    static const uint64_t golden[LIMN_LEVEL_COUNT] = {0xe2a6d34423703fc1u, 0x1147a25460ba461bu,
-                                                      0x3d12e9c75aa4b848u, 0xd378fcc6fffc5bf8u,
-                                                      0x22756486d7b9ae4fu};
+    static const uint64_t goldens[2][LIMN_LEVEL_COUNT] = {
+        {0xe2a6d34423703fc1u, 0x1147a25460ba461bu, 0x3d12e9c75aa4b848u, 0xd378fcc6fffc5bf8u,
+         0x22756486d7b9ae4fu},
+        {0x955c82875d9ba2fcu, 0x27dfaaf96d5efb3eu, 0x3f7509c51ec850c7u, 0x8487d18072ed06e6u,
+         0xc07d2814d679142fu}};
+    const uint64_t *const golden = goldens[m->mesh.control_count == 0];
     m->mesh.kernels = kernels;
     for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
         const limn_plan plan = limn_plan_uniform(&m->mesh, level);
@@ -629,7 +669,8 @@ static void test_plans(made *m, const limn_kernels *kernels) {
 
 /// The same for all patches, with levels and weights that are always the same, as a golden value.
 static void test_golden_plan(made *m, const limn_kernels *kernels) {
-    static const uint64_t golden = 0x7c1e9b383fdd636bu;
+    static const uint64_t goldens[2] = {0x165597af3afa03aau, 0x6e602fb6b6844499u};
+    const uint64_t golden = goldens[m->mesh.control_count == 0];
     static limn_plan_patch items[PATCH_TOTAL];
     limn_plan plan = {.mesh = &m->mesh, .patches = items, .patch_count = PATCH_TOTAL};
     for (uint32_t patch = 0; patch < PATCH_TOTAL; patch++) {
@@ -704,16 +745,15 @@ static void test_packed_positions(made *m, const limn_kernels *kernels) {
 static bool is_spoilt(const made *m, uint32_t patch, uint32_t row, int axis, bool *any) {
     const limn_file_run *const run = &m->runs[patch / PATCHES];
     const limn_file_class *const class = &m->classes[run->class_index];
-    const float *const table = m->tables + class->table_offset / sizeof(float);
     const uint32_t *const indices =
         m->indices + run->first_index + (size_t)(patch % PATCHES) * class->control_count;
-    const column_place place = place_of_row(class, false, row);
+    const column_place place = place_of_row(&m->mesh, patch / PATCHES, 0, row);
     bool spoilt = false;
     *any = false;
     for (uint32_t slot = 0; slot < class->control_count; slot++) {
         if (isfinite(m->controls[indices[slot]][axis])) continue;
         *any = true;
-        spoilt |= coefficient_at(table, &place, slot) != 0;
+        spoilt |= coefficient_at(&place, slot) != 0;
     }
     return spoilt;
 }
@@ -781,14 +821,10 @@ static void test_kernels(made *m, const limn_kernels *kernels, point_kind kind, 
     test_packed_positions(m, kernels);
 }
 
-/// The reproducible kernels; with the argument `golden`, only their golden hashes; with `fast`, the
-/// fast kernels.
-int main(int argc, char **argv) {
-    const bool golden = argc > 1 && strcmp(argv[1], "golden") == 0;
-    const bool fast = argc > 1 && strcmp(argv[1], "fast") == 0;
+/// Classes with tables, or in pieces.
+static void test_made(bool in_pieces, bool golden, bool fast) {
     static made m;
-    make(&m);
-    test_selection();
+    make(&m, in_pieces);
     for (int kind = 0; kind < (golden ? 1 : KINDS); kind++) {
         for (uint32_t c = 0; c < CONTROLS; c++) {
             for (int axis = 0; axis < 3; axis++)
@@ -805,8 +841,19 @@ int main(int argc, char **argv) {
             test_kernels(&m, kernels, (point_kind)kind, golden);
         }
     }
+    free(m.columns);
     free(m.tables);
     free(m.indices);
     free(m.slots);
+}
+
+/// The reproducible kernels; with the argument `golden`, only their golden hashes; with `fast`, the
+/// fast kernels.
+int main(int argc, char **argv) {
+    const bool golden = argc > 1 && strcmp(argv[1], "golden") == 0;
+    const bool fast = argc > 1 && strcmp(argv[1], "fast") == 0;
+    test_selection();
+    test_made(false, golden, fast);
+    test_made(true, golden, fast);
     return check_report();
 }

@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: MIT */
+#include "refine.h"
+
+typedef struct refiner {
+    limni_context *context;
+    const limni_mesh *mesh;
+    const limni_mesh_sharpness *sharpness;
+    const limni_rules *rules;
+    uint32_t *points; ///< [3 * face_count] of half-edges: the point on the edge
+    limni_refined *made;
+    limni_star star;       ///< of one control point
+    limni_fixed *weights;  ///< [1 + widest]
+    uint32_t *ring_points; ///< [widest] the point on the edge to each ring vertex
+    uint32_t term_count;
+} refiner;
+
+// ---- Points
+
+/// Returns how many there are.
+static uint32_t number_points(const limni_mesh *mesh, uint32_t *points) {
+    uint32_t count = mesh->control_count;
+    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
+        const uint32_t pair = mesh->pairs[h];
+        points[h] = pair == LIMNI_NONE || h < pair ? count++ : points[pair];
+    }
+    return count;
+}
+
+// ---- Faces
+
+static uint32_t child(uint32_t face, uint32_t piece, uint32_t edge) {
+    return 3 * (4 * face + piece) + edge;
+}
+/// The halves of half-edge h.
+static uint32_t first_half(uint32_t h) {
+    return child(h / 3, h % 3, 0);
+}
+static uint32_t second_half(uint32_t h) {
+    return child(h / 3, (h + 1) % 3, 2);
+}
+
+static void split_face(const refiner *r, uint32_t f) {
+    const limni_mesh *const mesh = r->mesh;
+    limni_mesh *const made = &r->made->mesh;
+    for (uint32_t k = 0; k < 3; k++) {
+        const uint32_t before = (k + 2) % 3, h = 3 * f + k, pair = mesh->pairs[h];
+        uint32_t *const corners = made->faces[4 * f + k];
+        corners[0] = mesh->faces[f][k];
+        corners[1] = r->points[h];
+        corners[2] = r->points[3 * f + before];
+        made->faces[4 * f + 3][k] = r->points[h];
+        made->pairs[first_half(h)] = pair == LIMNI_NONE ? LIMNI_NONE : second_half(pair);
+        made->pairs[second_half(h)] = pair == LIMNI_NONE ? LIMNI_NONE : first_half(pair);
+        made->pairs[child(f, k, 1)] = child(f, 3, before);
+        made->pairs[child(f, 3, before)] = child(f, k, 1);
+    }
+    for (uint32_t piece = 0; piece < 4; piece++) {
+        made->polygons[4 * f + piece] = mesh->polygons[f];
+        made->holes[4 * f + piece] = mesh->holes[f];
+    }
+}
+
+static void find_first(const refiner *r) {
+    const limni_mesh *const mesh = r->mesh;
+    limni_mesh *const made = &r->made->mesh;
+    for (uint32_t c = 0; c < mesh->control_count; c++) {
+        made->valences[c] = mesh->valences[c];
+        made->first[c] = mesh->first[c] == LIMNI_NONE ? LIMNI_NONE : first_half(mesh->first[c]);
+    }
+    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
+        const bool boundary = mesh->pairs[h] == LIMNI_NONE;
+        if (!boundary && mesh->pairs[h] < h) continue;
+        made->valences[r->points[h]] = boundary ? 4 : 6;
+        made->first[r->points[h]] = second_half(h);
+    }
+}
+
+// ---- Sharpness
+
+/// The other end is counted from the other side.
+static void sharpen_half(const refiner *r, uint32_t half, uint32_t start, limni_sharpness s) {
+    limni_mesh_sharpness *const made = &r->made->sharpness;
+    made->edges[half] = s;
+    if (r->made->mesh.pairs[half] != LIMNI_NONE) limni_sharp_edges_add(&made->around[start], s);
+}
+
+/// Halves of an edge have what is left at its ends.
+static limn_bake_status sharpen(const refiner *r) {
+    const limni_mesh *const mesh = r->mesh;
+    const limni_mesh_sharpness *const old = r->sharpness;
+    const limn_creasing creasing = r->rules->creasing;
+    limni_mesh_sharpness *const made = &r->made->sharpness;
+    const uint32_t point_count = r->made->mesh.control_count;
+    made->vertices = limni_allocate_zeroed(r->context, point_count, sizeof *made->vertices);
+    if (!made->vertices) return LIMN_BAKE_MEMORY;
+    for (uint32_t c = 0; c < mesh->control_count; c++)
+        made->vertices[c] = limni_sharpness_next(old->vertices[c]);
+    if (!old->edges) return LIMN_BAKE_OK;
+    made->edges =
+        limni_allocate_zeroed(r->context, 12 * (size_t)mesh->face_count, sizeof *made->edges);
+    made->around = limni_allocate_zeroed(r->context, point_count, sizeof *made->around);
+    if (!made->edges || !made->around) return LIMN_BAKE_MEMORY;
+    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
+        const uint32_t a = limni_half_edge_start(mesh, h), b = limni_half_edge_end(mesh, h);
+        sharpen_half(r, first_half(h), a,
+                     limni_edge_sharpness_next(creasing, old->edges[h], old->around[a]));
+        sharpen_half(r, second_half(h), r->points[h],
+                     limni_edge_sharpness_next(creasing, old->edges[h], old->around[b]));
+    }
+    return LIMN_BAKE_OK;
+}
+
+// ---- Stencils
+
+static void add_term(refiner *r, uint32_t control, limni_fixed weight) {
+    if (weight == 0) return;
+    r->made->terms[r->term_count++] =
+        (limn_file_term){.control = control, .weight = limni_fixed_to_float(weight)};
+}
+
+/// The star of a control point, and the points on its edges.
+static void look_around(refiner *r, uint32_t control) {
+    const limni_mesh *const mesh = r->mesh;
+    uint32_t h = mesh->first[control];
+    limni_mesh_star(mesh, r->sharpness, r->rules, h, &r->star);
+    for (uint32_t k = 0; k < r->star.count; k++) {
+        r->ring_points[k] = r->points[h];
+        const uint32_t previous = limni_half_edge_previous(h);
+        // Beyond the last face of an open star there is the edge that comes in.
+        h = mesh->pairs[previous] == LIMNI_NONE ? previous : mesh->pairs[previous];
+    }
+}
+
+static void add_vertex_stencil(refiner *r, uint32_t control) {
+    if (r->mesh->first[control] == LIMNI_NONE) {
+        add_term(r, control, LIMNI_FIXED_ONE);
+        return;
+    }
+    look_around(r, control);
+    limni_loop_vertex_mask(r->rules, &r->star, r->weights);
+    add_term(r, control, r->weights[0]);
+    for (uint32_t k = 0; k < r->star.count; k++)
+        add_term(r, r->star.ring[k], r->weights[1 + k]);
+}
+
+/// Of the edge from a control point to ring vertex k of its star.
+static void add_edge_stencil(refiner *r, uint32_t control, uint32_t k) {
+    const limni_star *const star = &r->star;
+    const limni_edge_mask mask =
+        limni_loop_edge_mask(limni_star_edge_weight(r->rules->creasing, star, k));
+    add_term(r, control, mask.end);
+    add_term(r, star->ring[k], mask.end);
+    add_term(r, star->ring[limni_star_left(star, k)], mask.opposite);
+    add_term(r, star->ring[limni_star_right(star, k)], mask.opposite);
+}
+
+static void add_edge_stencils(refiner *r) {
+    const limni_mesh *const mesh = r->mesh;
+    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
+        if (mesh->pairs[h] != LIMNI_NONE && mesh->pairs[h] < h) continue;
+        look_around(r, limni_half_edge_start(mesh, h));
+        uint32_t k = 0;
+        while (r->ring_points[k] != r->points[h])
+            k++;
+        r->made->stencils[r->points[h]] = r->term_count;
+        add_edge_stencil(r, limni_half_edge_start(mesh, h), k);
+    }
+}
+
+static limn_bake_status make_stencils(refiner *r) {
+    const limni_mesh *const mesh = r->mesh;
+    const uint32_t point_count = r->made->mesh.control_count;
+    uint64_t room = 4 * (uint64_t)(point_count - mesh->control_count);
+    uint32_t widest = 0;
+    for (uint32_t c = 0; c < mesh->control_count; c++) {
+        widest = mesh->valences[c] > widest ? mesh->valences[c] : widest;
+        room += 1 + (uint64_t)mesh->valences[c];
+    }
+    r->star.ring = limni_allocate(r->context, widest, sizeof *r->star.ring);
+    r->star.edges = limni_allocate(r->context, widest, sizeof *r->star.edges);
+    r->star.beyond = limni_allocate(r->context, widest, sizeof *r->star.beyond);
+    r->ring_points = limni_allocate(r->context, widest, sizeof *r->ring_points);
+    r->weights = limni_allocate(r->context, 1 + (size_t)widest, sizeof *r->weights);
+    r->made->stencils = limni_allocate(r->context, 1 + (size_t)point_count, sizeof(uint32_t));
+    r->made->terms = limni_allocate(r->context, (size_t)room, sizeof *r->made->terms);
+    if (!r->star.ring || !r->star.edges || !r->star.beyond || !r->ring_points || !r->weights ||
+        !r->made->stencils || !r->made->terms)
+        return LIMN_BAKE_MEMORY;
+    for (uint32_t c = 0; c < mesh->control_count; c++) {
+        r->made->stencils[c] = r->term_count;
+        add_vertex_stencil(r, c);
+    }
+    add_edge_stencils(r);
+    r->made->stencils[point_count] = r->term_count;
+    return LIMN_BAKE_OK;
+}
+
+// ---- All of it
+
+static limn_bake_status begin_mesh(const refiner *r, uint32_t point_count) {
+    limni_context *const context = r->context;
+    const size_t face_count = 4 * (size_t)r->mesh->face_count;
+    limni_mesh *const made = &r->made->mesh;
+    *made = *r->mesh;
+    made->control_count = point_count;
+    made->face_count = (uint32_t)face_count;
+    made->hole_count = 4 * r->mesh->hole_count;
+    made->controls = NULL;
+    made->edge_sharpness = made->vertex_sharpness = NULL;
+    made->faces = limni_allocate(context, face_count, sizeof *made->faces);
+    made->polygons = limni_allocate(context, face_count, sizeof *made->polygons);
+    made->holes = limni_allocate(context, face_count, sizeof *made->holes);
+    made->pairs = limni_allocate(context, 3 * face_count, sizeof *made->pairs);
+    made->first = limni_allocate(context, point_count, sizeof *made->first);
+    made->valences = limni_allocate(context, point_count, sizeof *made->valences);
+    return made->faces && made->polygons && made->holes && made->pairs && made->first &&
+                   made->valences
+               ? LIMN_BAKE_OK
+               : LIMN_BAKE_MEMORY;
+}
+
+limn_bake_status limni_refine(limni_context *context, const limni_mesh *mesh,
+                              const limni_mesh_sharpness *sharpness, const limni_rules *rules,
+                              limni_refined *refined) {
+    refiner r = {.context = context,
+                 .mesh = mesh,
+                 .sharpness = sharpness,
+                 .rules = rules,
+                 .points = limni_allocate(context, 3 * (size_t)mesh->face_count, sizeof *r.points),
+                 .made = refined};
+    *refined = (limni_refined){0};
+    if (!r.points) return LIMN_BAKE_MEMORY;
+    LIMNI_TRY(begin_mesh(&r, number_points(mesh, r.points)));
+    for (uint32_t face = 0; face < mesh->face_count; face++)
+        split_face(&r, face);
+    find_first(&r);
+    LIMNI_TRY(sharpen(&r));
+    LIMNI_TRY(make_stencils(&r));
+    limni_release(context, r.points);
+    limni_release(context, r.star.ring);
+    limni_release(context, r.star.edges);
+    limni_release(context, r.star.beyond);
+    limni_release(context, r.ring_points);
+    limni_release(context, r.weights);
+    return LIMN_BAKE_OK;
+}
+
+void limni_refined_end(limni_context *context, limni_refined *refined) {
+    limni_mesh_sharpness_end(context, &refined->sharpness);
+    limni_release(context, refined->mesh.faces);
+    limni_release(context, refined->mesh.polygons);
+    limni_release(context, refined->mesh.holes);
+    limni_release(context, refined->mesh.pairs);
+    limni_release(context, refined->mesh.first);
+    limni_release(context, refined->mesh.valences);
+}

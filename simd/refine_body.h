@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* The points of the first level of subdivision, one by one: they belong to no patch. */
+#ifndef REFINE_BODY_H
+#define REFINE_BODY_H
+
+#include "sums.h"
+
+#include <string.h>
+
+/// Reproducible in both families, as patches of either take the same points.
+static void refine_mesh(const limn_mesh *mesh, float *controls) {
+    const uint32_t count = mesh->point_count - mesh->control_count;
+    const quad origin = quad_load_point(mesh->origin);
+    const limn_file_term *at = mesh->terms;
+    float *dst = controls + 3 * (size_t)mesh->control_count;
+    for (uint32_t point = 0; point < count; point++, dst += 3) {
+        const limn_file_term *const end = mesh->terms + mesh->stencils[point + 1];
+        quad sum = quad_splat(0);
+        for (; at < end; at++) {
+            const quad control = quad_load_point(controls + 3 * (size_t)at->control);
+            const quad weighted =
+                quad_multiply(quad_splat(at->weight), quad_subtract(control, origin));
+            sum = quad_add(sum, weighted);
+        }
+        float place[4];
+        quad_store(place, quad_add(sum, origin));
+        memcpy(dst, place, 3 * sizeof(float));
+    }
+    lanes_end();
+}
+
+#endif
