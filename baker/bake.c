@@ -2,6 +2,8 @@
 /* The public face of the baker: each mesh goes through the steps as it is added. */
 #include "limn/bake.h"
 
+#include "choose_isolation.h"
+#include "edge_errors.h"
 #include "output_file.h"
 #include "write.h"
 
@@ -105,6 +107,21 @@ static void release_mesh(limni_context *context, const limni_mesh *mesh) {
     limni_release(context, mesh->holes);
 }
 
+/// Settles what LIMN_ISOLATE_AUTO means for this mesh, and says why.
+static limn_bake_status settle_isolation(limni_context *context, const limni_mesh *mesh,
+                                         limni_rules *rules, limni_footprint footprints[2]) {
+    if (rules->isolate != LIMN_ISOLATE_AUTO) return LIMN_BAKE_OK;
+    LIMNI_TRY(limni_choose_isolation(context, mesh, rules, footprints, &rules->isolate));
+    limni_note(
+        context,
+        "%s: %s: its tables would take %llu bytes, or %llu isolated; with its patches %llu, or "
+        "%llu",
+        mesh->name, rules->isolate == LIMN_ISOLATE_ALWAYS ? "isolated" : "not isolated",
+        (unsigned long long)footprints[0].tables, (unsigned long long)footprints[1].tables,
+        (unsigned long long)footprints[0].total, (unsigned long long)footprints[1].total);
+    return LIMN_BAKE_OK;
+}
+
 static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     limni_context *const context = &baker->context;
     source->name = copy_name(context, source->name ? source->name : "mesh");
@@ -119,10 +136,16 @@ static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     baker->blob = NULL;
     limni_mesh mesh;
     LIMNI_TRY(limni_mesh_build(context, source, &mesh));
-    const limni_rules rules = rules_for(&baker->rules, &mesh);
+    limni_rules rules = rules_for(&baker->rules, &mesh);
     LIMNI_TRY(apply_rules(context, &rules, &mesh));
-    LIMNI_TRY(limni_patches_build(context, &mesh, &rules, &baker->classes, &baker->pieces,
-                                  &baker->meshes[baker->mesh_count]));
+    limni_footprint footprints[2] = {0};
+    LIMNI_TRY(settle_isolation(context, &mesh, &rules, footprints));
+    limni_patches *const patches = &baker->meshes[baker->mesh_count];
+    LIMNI_TRY(
+        limni_patches_build(context, &mesh, &rules, &baker->classes, &baker->pieces, patches));
+    LIMNI_TRY(limni_edge_errors_build(context, &mesh, &baker->classes, &baker->pieces, patches));
+    memcpy(patches->footprints, footprints, sizeof footprints);
+    if (patches->controls != mesh.controls) limni_release(context, mesh.controls);
     baker->mesh_count++;
     release_source(context, source);
     release_mesh(context, &mesh);

@@ -30,8 +30,11 @@ static const char help[] =
     "asks\n"
     "                        for (t creasemethod in OBJ), otherwise uniform\n"
     "      --normals NAME    none (default), or exact: store tangents of the limit surface\n"
-    "      --isolate 0|1     1: evaluate the points of one level of subdivision first, and patches in\n"
-    "                        four pieces: few, small tables for any mesh. Default: 0\n"
+    "      --isolate 0|1|auto  1: evaluate the points of one level of subdivision first, and "
+    "patches\n"
+    "                        in four pieces: few, small tables for any mesh. auto: each mesh "
+    "whose\n"
+    "                        tables would take more than 256 KB. Default: 0\n"
     "      --repair[=STEPS]  mend what would be refused, and say so; STEPS of, separated by "
     "commas:\n"
     "                        weld   merge control points whose positions are equal\n"
@@ -113,7 +116,7 @@ static const choice creases = {{"opensubdiv", "lomont"}, "there are no crease ru
 static const choice creasings = {{"uniform", "chaikin"}, "there is no creasing method '%s'"};
 static const choice normals = {{"none", "exact"}, "there are no normals '%s'"};
 
-static const choice isolations = {{"0", "1"}, "cannot isolate '%s'"};
+static const choice isolations = {{"0", "1", "auto"}, "cannot isolate '%s'"};
 
 /// Sets *chosen to `first` for the first name, and so on.
 static int choose(const choice *from, int first, int *chosen) {

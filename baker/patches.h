@@ -6,6 +6,12 @@
 #include "control_normals.h"
 #include "isolation.h"
 
+/// Bytes of a mesh baked alone, without what is the same whether it is isolated or not.
+typedef struct limni_footprint {
+    uint64_t tables; ///< with what classes in pieces have in their place
+    uint64_t total;  ///< with patches, and the points of level 1
+} limni_footprint;
+
 typedef struct limni_patches {
     const char *name;
     limni_rules rules; ///< by which its classes were made
@@ -14,6 +20,7 @@ typedef struct limni_patches {
     float (*controls)[3]; ///< [point_count]
     uint32_t *stencils;   ///< see limni_refined; NULL: not isolated
     limn_file_term *terms;
+    limni_footprint footprints[2]; ///< with LIMN_ISOLATE_AUTO; otherwise 0
     limn_file_run *runs;
     uint32_t *faces;   ///< [patch_count] face << 2 | rotation
     uint32_t *indices; ///< [index_count]
@@ -25,7 +32,7 @@ typedef struct limni_patches {
     uint32_t *corner_normals;      ///< [patch_count][3] by its corners; NULL: its control points
 } limni_patches;
 
-/// Classifies every face of a mesh and lists its patches; adds the classes and the pieces that are
+/// All but the errors of edges: classifies every face of a mesh and lists its patches; adds the classes and the pieces that are
 /// new. Checks
 /// that patches which share an edge agree on it, and fails with LIMN_BAKE_INTERNAL if any two do
 /// not.

@@ -208,6 +208,25 @@ static const char *creasing_name(const limni_patches *meshes, uint32_t mesh_coun
     return name;
 }
 
+/// Whether meshes are isolated, unless none is; and where that was chosen, the bytes both ways.
+static void describe_isolation(const limni_rules *rules, const limni_patches *meshes,
+                               uint32_t mesh_count, char *text, size_t size) {
+    uint64_t totals[2] = {0};
+    uint32_t count = 0;
+    for (uint32_t m = 0; m < mesh_count; m++) {
+        count += meshes[m].stencils != NULL;
+        totals[0] += meshes[m].footprints[0].total;
+        totals[1] += meshes[m].footprints[1].total;
+    }
+    const char *const isolated = count == 0 ? "0" : count == mesh_count ? "1" : "mixed";
+    if (rules->isolate == LIMN_ISOLATE_AUTO) {
+        snprintf(text, size, " isolate=%s bytes=%llu isolated-bytes=%llu", isolated,
+                 (unsigned long long)totals[0], (unsigned long long)totals[1]);
+    } else {
+        snprintf(text, size, "%s", count ? " isolate=1" : "");
+    }
+}
+
 /// How the file was baked. Nothing here depends on the host or on the time.
 static void describe(const limni_rules *rules, const limni_patches *meshes, uint32_t mesh_count,
                      char *text, size_t size) {
@@ -215,7 +234,8 @@ static void describe(const limni_rules *rules, const limni_patches *meshes, uint
     const char *const normals = rules->normals == LIMN_NORMALS_EXACT ? "exact" : "none";
     char creases[64] = "";
     if (creasing) snprintf(creases, sizeof creases, " creases=opensubdiv creasing=%s", creasing);
-    const char *const isolate = rules->isolate == LIMN_ISOLATE_ALWAYS ? " isolate=1" : "";
+    char isolate[96];
+    describe_isolation(rules, meshes, mesh_count, isolate, sizeof isolate);
     snprintf(text, size, "scheme=loop weights=%s boundary=%s%s normals=%s%s",
              rules->weights == LIMN_WEIGHTS_WARREN ? "warren" : "loop",
              boundary_name(meshes, mesh_count), creases, normals, isolate);
@@ -236,7 +256,7 @@ limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rul
     LIMNI_TRY(make_columns(context, &all));
     if (!parts || !directory) return LIMN_BAKE_MEMORY;
 
-    char info[128];
+    char info[256];
     uint32_t part_count = 0;
     describe(rules, meshes, mesh_count, info, sizeof info);
     list_shared(&all, info, parts, &part_count);

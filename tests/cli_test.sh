@@ -408,6 +408,21 @@ refuses 1 'range.obj:5: ' bake range.obj -o new.limn --repair
 printf "${four}f 1 2 2\n" >hopeless.obj
 refuses 1 'hopeless.obj: the mesh has no faces' bake -q hopeless.obj -o new.limn --repair
 
+# ---- Isolation
+
+refuses 2 "cannot isolate '2'" bake "$torus" -o new.limn --isolate 2
+works bake -q "$sail" -o isolated.limn --isolate 1
+works info isolated.limn
+says stdout '^baked with .* isolate=1$'
+says stdout 'which are made of [0-9]* pieces'
+notes 'sail: isolated: its tables would take [0-9]* bytes, or [0-9]* isolated' bake "$sail" "$torus" -o chosen.limn --isolate auto
+notes 'torus32: not isolated: ' bake "$sail" "$torus" -o chosen.limn --isolate auto
+works info chosen.limn
+says stdout 'isolate=mixed bytes=[0-9]* isolated-bytes=[0-9]*$'
+notes 'torus32: not isolated: ' bake "$torus" -o alone.limn --isolate auto
+works info --json alone.limn
+expect "points of a mesh that is not isolated" "$(json points)" 16
+
 # ---- info
 
 works info several.limn

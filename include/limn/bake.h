@@ -65,8 +65,9 @@ typedef enum limn_normals {
 /// base face. Its points are then evaluated first, once a frame (limn_mesh_refine()), and tables are
 /// few and small, however many kinds of surroundings the faces of a mesh have.
 typedef enum limn_isolate {
-    LIMN_ISOLATE_NEVER, ///< a table for every kind of surroundings
-    LIMN_ISOLATE_ALWAYS
+    LIMN_ISOLATE_NEVER,  ///< a table for every kind of surroundings: the fewest steps for a patch
+    LIMN_ISOLATE_ALWAYS, ///< small tables
+    LIMN_ISOLATE_AUTO    ///< for each mesh whose tables would take more than 256 KB; says why
 } limn_isolate;
 
 /// What may be mended, as bits. Done in this order.

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef LIMNI_CHOOSE_ISOLATION_H
+#define LIMNI_CHOOSE_ISOLATION_H
+
+#include "patches.h"
+
+/// Bakes the mesh both ways, without measuring errors, and decides (docs/design.md, "Isolation").
+///
+/// footprints  out: not isolated, isolated
+/// isolate     out: LIMN_ISOLATE_NEVER or LIMN_ISOLATE_ALWAYS
+limn_bake_status limni_choose_isolation(limni_context *context, const limni_mesh *mesh,
+                                        const limni_rules *rules, limni_footprint footprints[2],
+                                        limn_isolate *isolate);
+
+#endif
