@@ -26,7 +26,8 @@ limn_baker *limn_baker_create(const limn_bake_desc *desc) {
     limn_baker *const baker = calloc(1, sizeof *baker);
     if (!baker) return NULL;
     if (desc) baker->context.desc = *desc;
-    baker->rules = (limni_rules){.weights = baker->context.desc.weights,
+    baker->rules = (limni_rules){.scheme = baker->context.desc.scheme,
+                                 .weights = baker->context.desc.weights,
                                  .boundary = baker->context.desc.boundary,
                                  .creases = baker->context.desc.creases,
                                  .creasing = baker->context.desc.creasing,

@@ -17,6 +17,7 @@ static const char help[] =
     "Polygons are triangulated: quads along the shorter diagonal. Nothing is written unless all is "
     "well.\n\n"
     "  -o, --output FILE     the file to write\n"
+    "      --scheme NAME     loop (default), or none: flat triangles, with sharp edges\n"
     "      --weights NAME    vertex weights: loop (default) or warren\n"
     "      --boundary NAME   edge-only: boundaries are smooth curves; edge-and-corner: boundary\n"
     "                        vertices of a single face stay in place; none: faces at a boundary "
@@ -80,7 +81,8 @@ static void print_progress(void *user, const char *step, uint32_t done, uint32_t
 }
 
 enum {
-    OPTION_WEIGHTS = 256,
+    OPTION_SCHEME = 256,
+    OPTION_WEIGHTS,
     OPTION_BOUNDARY,
     OPTION_CREASES,
     OPTION_CREASING,
@@ -91,6 +93,7 @@ enum {
 
 static const struct option options[] = {
     {"output", required_argument, NULL, 'o'},
+    {"scheme", required_argument, NULL, OPTION_SCHEME},
     {"weights", required_argument, NULL, OPTION_WEIGHTS},
     {"boundary", required_argument, NULL, OPTION_BOUNDARY},
     {"creases", required_argument, NULL, OPTION_CREASES},
@@ -109,6 +112,7 @@ typedef struct choice {
     const char *error;
 } choice;
 
+static const choice schemes = {{"loop", "none"}, "there is no scheme '%s'"};
 static const choice weights = {{"loop", "warren"}, "there are no weights '%s'"};
 static const choice boundaries = {{"edge-only", "edge-and-corner", "none"},
                                   "there is no boundary rule '%s'"};
@@ -135,6 +139,10 @@ static int parse_option(int option, arguments *given) {
     case 'o':
         given->output = optarg;
         return LIMNI_EXIT_OK;
+    case OPTION_SCHEME:
+        status = choose(&schemes, LIMN_SCHEME_LOOP, &chosen);
+        desc->scheme = (limn_scheme)chosen;
+        return status;
     case OPTION_WEIGHTS:
         status = choose(&weights, LIMN_WEIGHTS_LOOP, &chosen);
         desc->weights = (limn_weights)chosen;

@@ -103,10 +103,15 @@ static limn_bake_status find_comparable(limni_context *context, const limni_mesh
 
 static limn_bake_status oracle(limni_context *context, const limn_pack *pack,
                                const limni_mesh *source, bool with_normals, answer *given) {
-    char weights[32], boundary[32], creasing[32], error[512];
+    char scheme[32], weights[32], boundary[32], creasing[32], error[512];
+    limni_info_value(pack->info, "scheme", scheme, sizeof scheme);
     limni_info_value(pack->info, "weights", weights, sizeof weights);
     limni_info_value(pack->info, "boundary", boundary, sizeof boundary);
     limni_info_value(pack->info, "creasing", creasing, sizeof creasing);
+    if (strcmp(scheme, "loop") != 0)
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                          "the file was baked with --scheme %s, and only Loop's is compared",
+                          scheme);
     if (strcmp(weights, "loop") != 0)
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
                           "the file was baked with %s weights, which OpenSubdiv does not have",

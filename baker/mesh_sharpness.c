@@ -33,19 +33,25 @@ void limni_mesh_open_boundary(limni_mesh *mesh) {
     }
 }
 
+/// Without a scheme everything is sharp for ever: the masks of corners and of sharp edges, and within
+/// a face those of a regular mesh, leave triangles flat and evenly divided.
+static bool is_flat(const limni_rules *rules) {
+    return rules->scheme == LIMN_SCHEME_NONE;
+}
+
 static limn_bake_status convert_edges(limni_context *context, const limni_mesh *mesh,
-                                      limni_mesh_sharpness *sharpness) {
+                                      const limni_rules *rules, limni_mesh_sharpness *sharpness) {
     const size_t count = 3 * (size_t)mesh->face_count;
-    if (!any_above_zero(mesh->edge_sharpness, count)) return LIMN_BAKE_OK;
+    if (!is_flat(rules) && !any_above_zero(mesh->edge_sharpness, count)) return LIMN_BAKE_OK;
     sharpness->edges = limni_allocate(context, count, sizeof *sharpness->edges);
     sharpness->around =
         limni_allocate_zeroed(context, mesh->control_count, sizeof *sharpness->around);
     if (!sharpness->edges || !sharpness->around) return LIMN_BAKE_MEMORY;
     for (uint32_t h = 0; h < count; h++) {
-        const bool boundary = mesh->pairs[h] == LIMNI_NONE;
+        const bool forever = mesh->pairs[h] == LIMNI_NONE || is_flat(rules);
         const limni_sharpness s = limni_sharpness_from_float(mesh->edge_sharpness[h]);
-        sharpness->edges[h] = boundary ? LIMNI_SHARPNESS_INFINITE : s;
-        if (boundary) continue;
+        sharpness->edges[h] = forever ? LIMNI_SHARPNESS_INFINITE : s;
+        if (forever) continue;
         // The other end is counted from the other side.
         limni_sharp_edges_add(&sharpness->around[limni_half_edge_start(mesh, h)], s);
     }
@@ -66,11 +72,11 @@ limn_bake_status limni_mesh_sharpness_begin(limni_context *context, const limni_
     const bool sharpen = rules->boundary == LIMN_BOUNDARY_EDGE_AND_CORNER;
     for (uint32_t c = 0; c < mesh->control_count; c++) {
         const float tag = mesh->vertex_sharpness ? mesh->vertex_sharpness[c] : 0;
-        sharpness->vertices[c] = sharpen && is_boundary_corner(mesh, c)
+        sharpness->vertices[c] = is_flat(rules) || (sharpen && is_boundary_corner(mesh, c))
                                      ? LIMNI_SHARPNESS_INFINITE
                                      : limni_sharpness_from_float(tag);
     }
-    return convert_edges(context, mesh, sharpness);
+    return convert_edges(context, mesh, rules, sharpness);
 }
 
 void limni_mesh_sharpness_end(limni_context *context, limni_mesh_sharpness *sharpness) {

@@ -11,6 +11,7 @@
 /// The options that decide the masks. Meshes of one file may differ in what limn_bake_desc leaves to
 /// them.
 typedef struct limni_rules {
+    limn_scheme scheme;
     limn_weights weights;
     limn_boundary boundary; ///< not the default, nor that of creasing
     limn_creases creases;

@@ -236,7 +236,8 @@ static void describe(const limni_rules *rules, const limni_patches *meshes, uint
     if (creasing) snprintf(creases, sizeof creases, " creases=opensubdiv creasing=%s", creasing);
     char isolate[96];
     describe_isolation(rules, meshes, mesh_count, isolate, sizeof isolate);
-    snprintf(text, size, "scheme=loop weights=%s boundary=%s%s normals=%s%s",
+    snprintf(text, size, "scheme=%s weights=%s boundary=%s%s normals=%s%s",
+             rules->scheme == LIMN_SCHEME_NONE ? "none" : "loop",
              rules->weights == LIMN_WEIGHTS_WARREN ? "warren" : "loop",
              boundary_name(meshes, mesh_count), creases, normals, isolate);
 }

@@ -408,6 +408,12 @@ refuses 1 'range.obj:5: ' bake range.obj -o new.limn --repair
 printf "${four}f 1 2 2\n" >hopeless.obj
 refuses 1 'hopeless.obj: the mesh has no faces' bake -q hopeless.obj -o new.limn --repair
 
+# ---- No scheme
+
+refuses 2 "no scheme 'cubic'" bake "$sail" -o new.limn --scheme cubic
+works bake "$sail" -o flat.limn --scheme none --normals exact
+says stdout '88 faces, 1 classes'
+
 # ---- Isolation
 
 refuses 2 "cannot isolate '2'" bake "$torus" -o new.limn --isolate 2
@@ -671,6 +677,7 @@ verified() {
 if "$limn" verify torus.limn --against "$torus" 2>&1 | grep -q 'built without OpenSubdiv'; then
     echo "built without OpenSubdiv: verify is not tested"
 else
+    refuses 1 'baked with --scheme none' verify flat.limn --against "$sail"
     verified torus.limn --against "$torus"
     verified --against "$sail" sail.limn
     verified --against "$sail" corner.limn

@@ -311,6 +311,71 @@ static void test_warren(const char *path) {
                                       .isolate = LIMN_ISOLATE_ALWAYS});
 }
 
+/// The height of a triangle over its longest side; its normal, of unit length, goes to `normal`.
+static double measure_triangle(double edges[2][3], double normal[3]) {
+    double squares[3] = {0}, doubled_area = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const double third = edges[1][axis] - edges[0][axis];
+        normal[axis] = edges[0][u] * edges[1][v] - edges[0][v] * edges[1][u];
+        doubled_area = hypot(doubled_area, normal[axis]);
+        squares[0] += edges[0][axis] * edges[0][axis];
+        squares[1] += edges[1][axis] * edges[1][axis];
+        squares[2] += third * third;
+    }
+    for (int axis = 0; axis < 3; axis++)
+        normal[axis] /= doubled_area;
+    return doubled_area / sqrt(fmax(squares[0], fmax(squares[1], squares[2])));
+}
+
+/// How far a vertex is from the place (i, j) in the flat triangle of its patch, or its normal from the
+/// triangle's by more than points that are `rounding` off explain, whichever is more.
+static double off_triangle(const limn_mesh *mesh, uint32_t patch, limn_row row, double rounding,
+                           const float *values) {
+    uint32_t corners[LIMN_CORNER_MAX];
+    double edges[2][3], normal[3], off = 0;
+    limn_mesh_corners(mesh, patch, corners);
+    const float *const a = mesh->controls + 3 * (size_t)corners[0];
+    for (int axis = 0; axis < 3; axis++) {
+        for (int e = 0; e < 2; e++)
+            edges[e][axis] =
+                (double)mesh->controls[3 * (size_t)corners[1 + e] + (size_t)axis] - (double)a[axis];
+        const double place =
+            (double)a[axis] + (row.i * edges[0][axis] + row.j * edges[1][axis]) / LIMN_GRID_SIZE;
+        off = fmax(off, fabs((double)values[axis] - place));
+    }
+    const double tilt = rounding / measure_triangle(edges, normal);
+    for (int axis = 0; axis < 3; axis++)
+        off = fmax(off, fabs((double)values[3 + axis] - normal[axis]) - tilt);
+    return off;
+}
+
+/// Without a scheme patches are flat triangles, evenly divided, with a normal each.
+static void test_no_scheme(const char *path, limn_isolate isolate) {
+    subject s;
+    const limn_bake_desc desc = {
+        .scheme = LIMN_SCHEME_NONE, .normals = LIMN_NORMALS_EXACT, .isolate = isolate};
+    check_file(path, desc);
+    if (!CHECK(load(&s, path, &desc))) return;
+    const limn_plan plan = limn_plan_uniform(&s.baked, LIMN_LEVEL_MAX);
+    vertex *const vertices = malloc((size_t)plan.vertex_count * sizeof *vertices);
+    CHECK_EQUAL(evaluate_and_count(&s, s.pack.kernels, LIMN_LEVEL_MAX, vertices), 0u);
+    double furthest = 0, rounding = 0;
+    // Half-sized triangles between points of level 1, each rounded in three coordinates.
+    for (int axis = 0; axis < 3 && isolate == LIMN_ISOLATE_ALWAYS; axis++)
+        rounding +=
+            4 * 0x1p-24 * (double)fmaxf(s.baked.bounds_max[axis], -s.baked.bounds_min[axis]);
+    for (uint32_t v = 0; v < plan.vertex_count; v++) {
+        const limn_row row = s.baked.domain->rows[v % 153];
+        furthest = fmax(furthest, off_triangle(&s.baked, v / 153, row, rounding, vertices[v]));
+    }
+    printf("without a scheme: at most %.2e from the triangles\n", furthest);
+    CHECK(furthest < 1e-6);
+    CHECK_EQUAL(s.baked.run_count, 1u);
+    free(vertices);
+    unload(&s);
+}
+
 /// Puts the control points of every patch in slot order: what watertightness depends on is undone.
 static void shuffle(const subject *s, uint8_t *slots) {
     for (uint32_t r = 0; r < s->baked.run_count; r++) {
@@ -363,5 +428,7 @@ int main(void) {
     snprintf(path, sizeof path, "%s/imp.obj", getenv("LIMN_ASSETS"));
     test_warren(path);
     test_order_matters(path);
+    test_no_scheme(path, LIMN_ISOLATE_NEVER);
+    test_no_scheme(path, LIMN_ISOLATE_ALWAYS);
     return check_report();
 }

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * Smooth normals from triangles, for all files alike: most are baked without exact ones.
- */
+/* Smooth normals from triangles, for files that are baked without exact ones. */
 #ifndef VIEW_NORMALS_H
 #define VIEW_NORMALS_H
 

@@ -36,6 +36,25 @@ static void describe_vertices(const limn_plan *plan, view_vertex *vertices) {
     }
 }
 
+/// Positions, and the limit's normals if the file has them; otherwise those of the triangles.
+static bool evaluate_vertices(const limn_plan *plan, const uint16_t *indices,
+                              view_vertex *vertices) {
+    const limn_mesh *const mesh = plan->mesh;
+    limn_output output = {.vertices = vertices, .stride = sizeof(view_vertex)};
+    float *control_normals = NULL;
+    if (mesh->normals) {
+        control_normals = malloc(((size_t)mesh->normal_count + 1) * sizeof(float[3]));
+        if (!control_normals) return false;
+        limn_mesh_control_normals(mesh, mesh->controls, control_normals);
+        output.normals = vertices->normal;
+        output.normal_stride = sizeof(view_vertex);
+        output.control_normals = control_normals;
+    }
+    limn_evaluate(plan, mesh->controls, 0, plan->patch_count, &output);
+    free(control_normals);
+    return mesh->normals || view_normals_compute(plan, indices, vertices);
+}
+
 static bool evaluate_surface(const view_scene *scene, view_surface *surface) {
     const limn_mesh *const mesh = &surface->mesh;
     if (has_too_many(mesh, limni_frame_vertex_bound(&scene->frame, mesh))) return false;
@@ -47,10 +66,8 @@ static bool evaluate_surface(const view_scene *scene, view_surface *surface) {
     surface->vertices = calloc((size_t)plan->vertex_count + 1, sizeof *surface->vertices);
     if (!surface->vertices) return view_fail("out of memory for mesh '%s'", mesh->name);
 
-    limn_evaluate(plan, mesh->controls, 0, plan->patch_count,
-                  &(limn_output){.vertices = surface->vertices, .stride = sizeof(view_vertex)});
     describe_vertices(plan, surface->vertices);
-    if (!view_normals_compute(plan, scene->templates.indices, surface->vertices) ||
+    if (!evaluate_vertices(plan, scene->templates.indices, surface->vertices) ||
         !view_control_mesh_find(&surface->control_mesh, mesh)) {
         return view_fail("out of memory for mesh '%s'", mesh->name);
     }

@@ -28,6 +28,12 @@ typedef enum limn_bake_status {
     LIMN_BAKE_INTERNAL,  ///< the baker's own check failed: a defect; nothing was written
 } limn_bake_status;
 
+/// What the surface is that a mesh stands for.
+typedef enum limn_scheme {
+    LIMN_SCHEME_LOOP, ///< Loop subdivision
+    LIMN_SCHEME_NONE  ///< the flat triangles themselves, for props that go through the same pipeline
+} limn_scheme;
+
 /// Vertex weights of Loop subdivision.
 typedef enum limn_weights {
     LIMN_WEIGHTS_LOOP,  ///< Loop's own, from the cosine of the valence
@@ -88,6 +94,7 @@ typedef void limn_bake_progress_fn(void *user, const char *step, uint32_t done, 
 
 /// Zero means default, everywhere.
 typedef struct limn_bake_desc {
+    limn_scheme scheme;
     limn_weights weights;
     limn_boundary boundary;
     limn_creases creases;
