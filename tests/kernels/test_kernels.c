@@ -781,6 +781,73 @@ static void test_not_finite(made *m, const limn_kernels *kernels) {
     CHECK(spoilt_count > 0 && finite_count > 0);
 }
 
+// ---- Points of the first level
+
+enum { REFINED = 200, TERM_MAX = 9 };
+
+/// Points of any number of terms, none among them, behind 100 control points.
+static limn_mesh make_stencils(uint32_t *stencils, limn_file_term *terms) {
+    limn_mesh mesh = {.control_count = CONTROLS,
+                      .point_count = CONTROLS + REFINED,
+                      .stencils = stencils,
+                      .terms = terms,
+                      .origin = {0, 7.25f, -3}};
+    stencils[0] = 0;
+    for (uint32_t point = 0; point < REFINED; point++) {
+        const uint32_t count = next_random() % (TERM_MAX + 1);
+        stencils[point + 1] = stencils[point] + count;
+        for (uint32_t t = stencils[point]; t < stencils[point + 1]; t++)
+            terms[t] = (limn_file_term){next_random() % CONTROLS, random_float(-1, 1)};
+    }
+    return mesh;
+}
+
+/// Within what rounding each product and each sum may be off by.
+static void check_point(const limn_mesh *mesh, uint32_t point, const float (*points)[3]) {
+    for (int axis = 0; axis < 3; axis++) {
+        const double origin = (double)mesh->origin[axis], unit = FLT_EPSILON / 2;
+        double sum = 0, magnitude = 0;
+        for (uint32_t t = mesh->stencils[point]; t < mesh->stencils[point + 1]; t++) {
+            const double term = (double)mesh->terms[t].weight *
+                                ((double)points[mesh->terms[t].control][axis] - origin);
+            sum += term;
+            magnitude += fabs(term);
+        }
+        CHECK_NEAR((double)points[CONTROLS + point][axis], sum + origin,
+                   unit * ((TERM_MAX + 2) * magnitude + fabs(sum + origin)));
+    }
+}
+
+/// The control points stay as they are, nothing behind the points is written, and the bits of all
+/// kernels are those of the scalar ones.
+static void test_refine(void) {
+    static uint32_t stencils[REFINED + 1];
+    static limn_file_term terms[REFINED * TERM_MAX];
+    static float points[2][CONTROLS + REFINED + 1][3];
+    limn_mesh mesh = make_stencils(stencils, terms);
+    for (uint32_t isa = 1; isa <= LIMN_ISA_NEON; isa <<= 1) {
+        for (int family = 0; family < 2; family++) {
+            float(*const of_kernels)[3] = points[isa > LIMN_ISA_SCALAR || family];
+            memset(of_kernels, 0xa5, sizeof points[0]);
+            for (uint32_t c = 0; c < CONTROLS; c++) {
+                for (uint32_t axis = 0; axis < 3; axis++)
+                    of_kernels[c][axis] = (float)(c * (axis + 7) % 101) / 9 - 5;
+            }
+            mesh.kernels = limn_kernels_select(isa, (limn_family)family);
+            limn_mesh_refine(&mesh, of_kernels[0]);
+            CHECK(memcmp(points[0], of_kernels, sizeof points[0]) == 0);
+        }
+    }
+    for (uint32_t point = 0; point < REFINED; point++)
+        check_point(&mesh, point, (const float(*)[3])points[0]);
+    uint32_t guard;
+    memcpy(&guard, points[0][CONTROLS + REFINED], sizeof guard);
+    CHECK_EQUAL(guard, 0xa5a5a5a5u);
+    const uint64_t hash = limni_checksum(points[0], sizeof points[0]);
+    if (!CHECK(hash == 0xd557c2309aad0729u))
+        fprintf(stderr, "    points: 0x%016llx\n", (unsigned long long)hash);
+}
+
 static void test_selection(void) {
     const uint32_t supported = limn_isa_supported();
     CHECK(supported & LIMN_ISA_SCALAR);
@@ -855,5 +922,6 @@ int main(int argc, char **argv) {
     test_selection();
     test_made(false, golden, fast);
     test_made(true, golden, fast);
+    test_refine();
     return check_report();
 }
