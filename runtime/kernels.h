@@ -37,24 +37,17 @@
 #define LIMNI_PLAIN_TERMS 24
 LIMN_STATIC_ASSERT(LIMNI_PLAIN_TERMS == LIMN_FORMAT_PAIRED_MAX, "pairs are summed plainly");
 
-/// One piece of the patches of an isolated class.
-typedef struct limni_piece {
-    const float *table;      ///< as for a run
-    const uint16_t *columns; ///< [control_count of the run] or LIMN_FORMAT_NO_COLUMN
-    const limni_piece_layout *positions, *tangents; ///< with the same stride
-    size_t table_stride;                            ///< floats from table to table
-    uint16_t first_place;                           ///< among those of all pieces
-} limni_piece;
-
 /// Consecutive patches of one class.
 typedef struct limni_run {
     const float *table;      ///< of positions: [control_count][row_stride], columns aligned to 32
                              ///< bytes; behind it, perhaps, the two of tangents
     const uint32_t *indices; ///< [patch_count][control_count], by slot
     const void *slots; ///< the same shape, slot_size bytes each: in ascending order of the indices
-    const limni_pieces *pieces; ///< the class is in pieces, and has no table; NULL: it has
-    limni_piece of_pieces[LIMNI_PIECE_COUNT];
-    const limni_layout *layout;         ///< of positions
+    const limni_pieces *pieces;     ///< the class is in pieces, whose tables count from `table`;
+                                    ///< NULL: it has a table
+    const uint16_t *parts;          ///< which pieces, and their columns: see LIMN_CHUNK_COLUMNS
+    const limn_file_piece *records; ///< that `parts` refers to
+    const limni_layout *layout;     ///< of positions
     const limni_layout *tangent_layout; ///< with the same stride
     uint32_t control_count;
     uint32_t pair_count; ///< mirrored control points: slots 1 and 2, 3 and 4, …; 0: no symmetry
@@ -70,6 +63,30 @@ typedef struct limni_run {
                           ///< NULL: consecutive patches at the level of the target
     uint32_t first_patch; ///< of the class, where there are items
 } limni_run;
+
+/// One piece of the patches of a run.
+typedef struct limni_piece {
+    const float *table;      ///< as for a run
+    const uint16_t *columns; ///< [control_count of the run] or LIMN_FORMAT_NO_COLUMN
+    const limni_piece_layout *positions, *tangents; ///< with the same stride
+    size_t table_stride;                            ///< floats from table to table
+    uint32_t column_count;
+    uint16_t first_place; ///< among those of all pieces
+} limni_piece;
+
+static inline limni_piece limni_piece_of(const limni_run *run, uint32_t p) {
+    const limn_file_piece *const record = &run->records[run->parts[p]];
+    const limni_pieces *const pieces = run->pieces;
+    return (limni_piece){
+        .table = run->table + record->table_offset / sizeof(float),
+        .columns = run->parts + LIMNI_PIECE_COUNT + (size_t)p * run->control_count,
+        .positions = &pieces->positions[record->kind],
+        .tangents = &pieces->tangents[record->kind],
+        .table_stride = (size_t)record->control_count * limn_file_piece_stride(record),
+        .column_count = record->control_count,
+        .first_place = (uint16_t)(p * pieces->positions[LIMNI_PIECE_CORNER].row_stride),
+    };
+}
 
 /// Where control points come from.
 typedef struct limni_points {

@@ -16,25 +16,11 @@ uint32_t limni_find_run(const limn_mesh *mesh, uint32_t patch_index) {
     return low;
 }
 
-static limni_piece piece_of(const limn_mesh *mesh, const limn_file_class *class, uint32_t p) {
-    const uint16_t *const words = mesh->columns + class->table_offset / sizeof(uint16_t);
-    const limn_file_piece *const record = &mesh->pieces[words[p]];
-    const limni_pieces *const pieces = limni_pieces_get(mesh->domain->kind);
-    const uint32_t stride = limn_file_piece_stride(record);
-    return (limni_piece){
-        .table = mesh->tables + record->table_offset / sizeof(float),
-        .columns = words + LIMNI_PIECE_COUNT + (size_t)p * class->control_count,
-        .positions = &pieces->positions[record->kind],
-        .tangents = &pieces->tangents[record->kind],
-        .table_stride = (size_t)record->control_count * stride,
-        .first_place = (uint16_t)(p * pieces->positions[LIMNI_PIECE_CORNER].row_stride),
-    };
-}
-
 static void set_pieces(const limn_mesh *mesh, const limn_file_class *class, limni_run *run) {
+    run->table = mesh->tables;
     run->pieces = limni_pieces_get(mesh->domain->kind);
-    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++)
-        run->of_pieces[p] = piece_of(mesh, class, p);
+    run->parts = mesh->columns + class->table_offset / sizeof(uint16_t);
+    run->records = mesh->pieces;
 }
 
 static void set_table(const limn_mesh *mesh, const limn_file_class *class, limni_run *run) {

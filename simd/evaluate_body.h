@@ -77,6 +77,13 @@ static inline void clear_padding(const limn_domain *domain, scratch *rows) {
         clear_rows(rows, domain->row_counts[level]);
 }
 
+/// What the pieces of a run are, and what those of one patch are between summing and being placed.
+typedef struct assembly {
+    const limni_pieces *layouts;
+    limni_piece items[LIMNI_PIECE_COUNT];
+    scratch staged;
+} assembly;
+
 // ---- Storing
 
 static inline part position_part(const limni_target *target) {
@@ -133,7 +140,8 @@ typedef struct wanted {
     const uint32_t *corners;      ///< indices of their normals,
     uint32_t first_corner;        ///< counted from here
     const float *control_normals; ///< NULL: no normals
-    const limni_run *run;
+    const limni_layout *layout;   ///< of tangents
+    assembly *pieces;             ///< NULL: the class has a table
     uint32_t level;
     size_t row_count;
 } wanted;
@@ -157,7 +165,7 @@ static inline void place_edge_normals(const limni_layout *layout, size_t corner_
 /// later.
 static inline void find_table_normals(const limn_domain *domain, const wanted *what,
                                       scratch *rows) {
-    const limni_layout *const layout = what->run->tangent_layout;
+    const limni_layout *const layout = what->layout;
     for (uint32_t level = LIMNI_INSIDE_LEVEL; level <= what->level; level++) {
         const size_t first = limni_first_inside(domain, level);
         find_normals(&rows->across, first, domain->row_counts[level] - first, &rows->along);
@@ -168,23 +176,19 @@ static inline void find_table_normals(const limn_domain *domain, const wanted *w
     place_edge_normals(layout, domain->corner_count, what->level, &rows->along);
 }
 
-static inline void find_piece_normals(const wanted *what, scratch *staged, vectors *normals) {
-    const limni_pieces *const pieces = what->run->pieces;
-    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++) {
-        const limni_piece *const piece = &what->run->of_pieces[p];
-        find_normals(&staged->across, piece->first_place, piece->tangents->counts[what->level],
-                     &staged->along);
-    }
-    place_rows(pieces->normal_copies, pieces->normal_copy_counts[what->level], &staged->along,
+static inline void find_piece_normals(assembly *a, uint32_t level, vectors *normals) {
+    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++)
+        find_normals(&a->staged.across, a->items[p].first_place,
+                     a->items[p].tangents->counts[level], &a->staged.along);
+    place_rows(a->layouts->normal_copies, a->layouts->normal_copy_counts[level], &a->staged.along,
                normals);
 }
 
 /// Unit normals from tangents, in place of the first of them, as they will be written.
-static inline void make_normals(const limni_target *target, const wanted *what, scratch *staged,
-                                scratch *rows) {
+static inline void make_normals(const limni_target *target, const wanted *what, scratch *rows) {
     const limn_domain *const domain = target->domain;
-    if (what->run->pieces) {
-        find_piece_normals(what, staged, &rows->along);
+    if (what->pieces) {
+        find_piece_normals(what->pieces, what->level, &rows->along);
     } else {
         find_table_normals(domain, what, rows);
     }
@@ -195,12 +199,12 @@ static inline void make_normals(const limni_target *target, const wanted *what, 
 }
 
 static LIMNI_NOINLINE void store_patch(const limni_target *target, const parts *to,
-                                       const wanted *what, scratch *staged, scratch *rows) {
+                                       const wanted *what, scratch *rows) {
     const float *const planes = (const float *)(const void *)rows;
     if (what->item) morph_patch(target->domain, what->item, false, &rows->positions);
     if (target->position_format == LIMN_POSITION_UNORM16X4)
         pack_unorm16x4(target, what->row_count, &rows->positions);
-    if (what->control_normals) make_normals(target, what, staged, rows);
+    if (what->control_normals) make_normals(target, what, rows);
     if (target->streaming) {
         stream_parts(to, planes, what->row_count);
     } else {
@@ -312,20 +316,20 @@ static inline void sum_patch(patch *p, const limni_run *run, const chosen *which
 
 /// Both tangents of the rows of all pieces. Those of edges are relative to the end that comes first,
 /// and those inside to a corner.
-static inline void sum_all_piece_tangents(const limni_run *run, const chosen *which,
-                                          const float *controls, const piece_points *points,
-                                          size_t corner_count, scratch *staged) {
-    vectors *const out[2] = {&staged->along, &staged->across};
+static inline void sum_all_piece_tangents(assembly *a, const chosen *which, const float *controls,
+                                          const piece_points *points, size_t corner_count) {
+    vectors *const out[2] = {&a->staged.along, &a->staged.across};
     const uint32_t *const corners = which->indices;
     for (size_t p = 0; p < LIMNI_PIECE_COUNT; p++) {
-        const limni_piece *const piece = &run->of_pieces[p];
+        const limni_piece *const piece = &a->items[p];
         const uint32_t end = piece->tangents->counts[which->level];
         uint32_t first = 0;
         for (size_t half = 0; half < 2 && p < corner_count;
              half++, first += LIMN_FORMAT_ROW_BLOCK) {
             const size_t edge = half == 0 ? p : p > 0 ? p - 1 : corner_count - 1;
-            const uint32_t a = corners[edge], b = corners[edge + 1 < corner_count ? edge + 1 : 0];
-            const float *const origin = controls + 3 * (size_t)(a < b ? a : b);
+            const uint32_t start = corners[edge];
+            const uint32_t next = corners[edge + 1 < corner_count ? edge + 1 : 0];
+            const float *const origin = controls + 3 * (size_t)(start < next ? start : next);
             const uint32_t behind = first + LIMN_FORMAT_ROW_BLOCK;
             sum_piece_tangents(piece, points, origin, first, end < behind ? end : behind, out);
         }
@@ -334,10 +338,9 @@ static inline void sum_all_piece_tangents(const limni_run *run, const chosen *wh
 }
 
 /// All sums of one patch in pieces.
-static inline void sum_pieces(const limni_run *run, const chosen *which, const gathering *g,
-                              const float *origin, const limn_domain *domain, bool normals,
-                              scratch *staged, scratch *rows) {
-    const limni_pieces *const pieces = run->pieces;
+static inline void sum_pieces(assembly *a, const limni_run *run, const chosen *which,
+                              const gathering *g, const float *origin, const limn_domain *domain,
+                              bool normals, vectors *positions) {
     const size_t count = run->control_count;
     const quad from = quad_load_point(origin);
     term *const relative = g->to.ascending, *const absolute = relative + count;
@@ -352,11 +355,10 @@ static inline void sum_pieces(const limni_run *run, const chosen *which, const g
                                  .absolute = {absolute, absolute + count},
                                  .buffer = absolute + count};
     for (size_t p = 0; p < LIMNI_PIECE_COUNT; p++)
-        sum_piece_positions(&run->of_pieces[p], &points, origin, which->level, &staged->positions);
-    place_rows(pieces->position_copies, pieces->position_copy_counts[which->level],
-               &staged->positions, &rows->positions);
-    if (normals)
-        sum_all_piece_tangents(run, which, g->controls, &points, domain->corner_count, staged);
+        sum_piece_positions(&a->items[p], &points, origin, which->level, &a->staged.positions);
+    place_rows(a->layouts->position_copies, a->layouts->position_copy_counts[which->level],
+               &a->staged.positions, positions);
+    if (normals) sum_all_piece_tangents(a, which, g->controls, &points, domain->corner_count);
 }
 
 /// Whether all that is wanted are positions as three floats, one behind the other.
@@ -365,10 +367,11 @@ static inline bool is_tight(const limni_points *from, const limni_target *target
            target->stride == 3 * sizeof(float) && !target->streaming;
 }
 
-/// tight  is_tight(), for the compiler: a fifth of the time at the lowest levels
+/// tight   is_tight(), for the compiler: a fifth of the time at the lowest levels
+/// pieces  NULL: classes have tables
 static LIMNI_INLINE void evaluate_patches(const limni_run *run, const gathering *g,
                                           const limni_points *from, const limni_target *target,
-                                          bool tight) {
+                                          bool tight, assembly *pieces) {
     // What does not change from patch to patch is set up once: the compiler cannot know that stores
     // of vectors leave it alone.
     const size_t count = run->control_count;
@@ -384,9 +387,8 @@ static LIMNI_INLINE void evaluate_patches(const limni_run *run, const gathering 
         p.even = (terms){g->to.folded, g->to.folded + even_count};
         p.odd = (terms){g->to.folded + even_count, g->to.folded + (count - 1)};
     }
-    scratch rows, staged;
+    scratch rows;
     clear_padding(target->domain, &rows);
-    if (run->pieces) clear_rows(&staged, LIMNI_PIECE_PLACES);
 
     for (size_t i = 0; i < run->patch_count; i++) {
         const limn_plan_patch *const item = run->items ? &run->items[i] : NULL;
@@ -397,9 +399,9 @@ static LIMNI_INLINE void evaluate_patches(const limni_run *run, const gathering 
                               .level = item ? item->level : target->level};
         const size_t row_count = target->domain->row_counts[which.level];
         to.first = item ? item->first_vertex : i * row_count;
-        if (run->pieces) {
-            sum_pieces(run, &which, g, from->origin, target->domain, !tight && from->normals,
-                       &staged, &rows);
+        if (pieces) {
+            sum_pieces(pieces, run, &which, g, from->origin, target->domain, from->normals,
+                       &rows.positions);
         } else {
             sum_patch(&p, run, &which, g, origin, target->domain, !tight && from->normals, &rows);
         }
@@ -416,34 +418,67 @@ static LIMNI_INLINE void evaluate_patches(const limni_run *run, const gathering 
                              .corners = corners,
                              .first_corner = run->corner_normals ? 0 : run->first_corner,
                              .control_normals = from->normals,
-                             .run = run,
+                             .layout = run->tangent_layout,
+                             .pieces = pieces,
                              .level = which.level,
                              .row_count = row_count};
-        store_patch(target, &to, &what, &staged, &rows);
+        store_patch(target, &to, &what, &rows);
     }
 }
 
-static void evaluate_run(const limni_run *run, const limni_points *from,
-                         const limni_target *target) {
+/// Apart, so that runs with tables keep their registers.
+static LIMNI_NOINLINE void evaluate_in_pieces(const limni_run *run, const limni_points *from,
+                                              const limni_target *target) {
+    gathering g = {.controls = from->controls, .slot_size = run->slot_size};
+    assembly pieces;
+    pieces.layouts = run->pieces;
+    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++)
+        pieces.items[p] = limni_piece_of(run, p);
+    clear_rows(&pieces.staged, LIMNI_PIECE_PLACES);
+    if (run->slot_size == 1) {
+        _Alignas(16) term ascending[3 * LIMN_FORMAT_NARROW_SLOTS + 1];
+        g.slot_size = 1;
+        g.to.ascending = ascending;
+        evaluate_patches(run, &g, from, target, false, &pieces);
+    } else {
+        _Alignas(16) term ascending[3 * LIMN_FORMAT_CONTROLS_MAX + 1];
+        g.slot_size = 2;
+        g.to.ascending = ascending;
+        evaluate_patches(run, &g, from, target, false, &pieces);
+    }
+}
+
+/// Each way to store has its own loop over patches.
+static LIMNI_INLINE void evaluate_with_tables(const limni_run *run, const limni_points *from,
+                                              const limni_target *target) {
     _Alignas(16) term absolute[LIMNI_PLAIN_TERMS], folded[LIMNI_PLAIN_TERMS];
     const bool apart = from->normals && run->control_count <= LIMNI_PLAIN_TERMS;
     gathering g = {.controls = from->controls,
                    .slot_size = run->slot_size,
                    .to = {.absolute = apart ? absolute : NULL, .folded = folded}};
     if (run->slot_size == 1) {
-        _Alignas(16) term ascending[3 * LIMN_FORMAT_NARROW_SLOTS + 1];
+        _Alignas(16) term ascending[LIMN_FORMAT_NARROW_SLOTS];
         g.slot_size = 1;
         g.to.ascending = ascending;
         if (is_tight(from, target)) {
-            evaluate_patches(run, &g, from, target, true);
+            evaluate_patches(run, &g, from, target, true, NULL);
         } else {
-            evaluate_patches(run, &g, from, target, false);
+            evaluate_patches(run, &g, from, target, false, NULL);
         }
     } else {
-        _Alignas(16) term ascending[3 * LIMN_FORMAT_CONTROLS_MAX + 1];
+        _Alignas(16) term ascending[LIMN_FORMAT_CONTROLS_MAX];
         g.slot_size = 2;
         g.to.ascending = ascending;
-        evaluate_patches(run, &g, from, target, false);
+        evaluate_patches(run, &g, from, target, false, NULL);
+    }
+}
+
+static void evaluate_run(const limni_run *run, const limni_points *from,
+                         const limni_target *target) {
+    if (run->pieces) {
+        evaluate_in_pieces(run, from, target);
+    } else {
+        evaluate_with_tables(run, from, target);
     }
     if (target->streaming) lanes_stream_end();
     lanes_end();

@@ -33,8 +33,7 @@ static inline column_place place_in_table(const limni_run *run, uint32_t table, 
 }
 
 /// In the tables of the pieces of a class. Found by the copy that takes it to its place.
-static inline column_place place_in_pieces(const limni_run *run, const limn_file_piece *records,
-                                           const uint16_t *parts, uint32_t table, uint32_t row) {
+static inline column_place place_in_pieces(const limni_run *run, uint32_t table, uint32_t row) {
     const limni_piece_copy *copy =
         table ? run->pieces->normal_copies : run->pieces->position_copies;
     const limni_piece_copy *const end =
@@ -44,15 +43,15 @@ static inline column_place place_in_pieces(const limni_run *run, const limn_file
         copy++;
     const uint32_t staged = copy->from + row - copy->to;
     uint32_t p = LIMNI_PIECE_COUNT - 1;
-    while (run->of_pieces[p].first_place > staged)
+    while (limni_piece_of(run, p).first_place > staged)
         p--;
-    const limni_piece *const piece = &run->of_pieces[p];
-    column_place place = {.table = piece->table + table * piece->table_stride,
-                          .at = staged - piece->first_place,
-                          .stride = piece->positions->row_stride,
-                          .column_count = records[parts[p]].control_count,
+    const limni_piece piece = limni_piece_of(run, p);
+    column_place place = {.table = piece.table + table * piece.table_stride,
+                          .at = staged - piece.first_place,
+                          .stride = piece.positions->row_stride,
+                          .column_count = piece.column_count,
                           .edge = 3,
-                          .columns = piece->columns};
+                          .columns = piece.columns};
     if (table && p < 3 && place.at < 16) place.edge = (p + (place.at < 8 ? 0 : 2)) % 3;
     return place;
 }
@@ -60,12 +59,8 @@ static inline column_place place_in_pieces(const limni_run *run, const limn_file
 /// In table 0 of positions, or 1 and 2 of tangents; there, not of a corner.
 static inline column_place place_of_row(const limn_mesh *mesh, uint32_t run_index, uint32_t table,
                                         uint32_t row) {
-    const limn_file_run *const run = &mesh->runs[run_index];
-    const limn_file_class *const class = &mesh->classes[run->class_index];
-    const limni_run part = limni_run_part(mesh, run, 0, 1);
-    if (!part.pieces) return place_in_table(&part, table, row);
-    return place_in_pieces(&part, mesh->pieces,
-                           mesh->columns + class->table_offset / sizeof(uint16_t), table, row);
+    const limni_run part = limni_run_part(mesh, &mesh->runs[run_index], 0, 1);
+    return part.pieces ? place_in_pieces(&part, table, row) : place_in_table(&part, table, row);
 }
 
 /// The coefficient of the point in `slot`. Of paired rows, it is a sum of two.
