@@ -18,16 +18,18 @@ void limni_assignment_end(limni_context *context, const limni_assignment *assign
 
 /// Adds up what one side says about an edge: which control points move its rows, and how. The sum
 /// does not depend on the order of the slots. On a crease both sides have tangents of their own.
-static uint64_t sum_edge(const limni_classes *classes, const limni_class_key *key,
-                         const limni_local_base *base, uint32_t edge, bool along, bool crease) {
+static uint64_t sum_edge(const limni_mesh *mesh, const limni_classes *classes,
+                         const limni_class_key *key, const limni_local_base *base, uint32_t edge,
+                         bool along, bool crease) {
     const limni_class *const class = &classes->items[key->class_index];
     uint64_t sum = 0;
     for (uint32_t slot = 0; slot < base->neighbourhood.control_count; slot++) {
         if (key->slots[slot] == LIMNI_SLOT_UNUSED) continue;
         const limni_edge_prints *const prints = &class->prints[key->slots[slot]];
         const limni_edge_print print = along ? prints->along[edge] : prints->against[edge];
-        if (print.positions) sum += limni_hash_mix(print.positions, base->controls[slot]);
-        if (print.tangents && !crease) sum -= limni_hash_mix(print.tangents, base->controls[slot]);
+        const uint32_t control = limni_origin(mesh, base->controls[slot]);
+        if (print.positions) sum += limni_hash_mix(print.positions, control);
+        if (print.tangents && !crease) sum -= limni_hash_mix(print.tangents, control);
     }
     return sum;
 }
@@ -48,8 +50,8 @@ static void sum_edges(limni_classifier *classifier, const limni_classes *classes
             const uint32_t edge = (h % 3 + 3 - rotation) % 3;
             const bool along = mesh->pairs[h] == LIMNI_NONE || h < mesh->pairs[h];
             const bool crease = limni_is_crease(classifier->sharpness, mesh, h);
-            sums[h] =
-                sum_edge(classes, &classes->keys[assigned->keys[face]], base, edge, along, crease);
+            sums[h] = sum_edge(mesh, classes, &classes->keys[assigned->keys[face]], base, edge,
+                               along, crease);
         }
     }
 }

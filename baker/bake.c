@@ -98,6 +98,7 @@ static void release_source(limni_context *context, const limni_source *source) {
 }
 
 static void release_mesh(limni_context *context, const limni_mesh *mesh) {
+    limni_release(context, mesh->origins);
     limni_release(context, mesh->faces);
     limni_release(context, mesh->polygons);
     limni_release(context, mesh->pairs);

@@ -6,15 +6,18 @@
 enum {
     /// check_size() refuses faces whose rings have more entries in all.
     RING_MAX = LIMNI_LOCAL_BASE_MAX,
-    KEY_MAX = 9 + 3 * RING_MAX
+    SLOT_MAX = 3 * RING_MAX + 3,
+    KEY_MAX = 9 + 3 * RING_MAX + 2 * SLOT_MAX
 };
 
 static limn_bake_status allocate_base(limni_context *context, limni_local_base *base) {
-    base->controls = limni_allocate(context, 3 * RING_MAX + 3, sizeof *base->controls);
+    base->controls = limni_allocate(context, SLOT_MAX, sizeof *base->controls);
+    base->twins = limni_allocate(context, SLOT_MAX, sizeof *base->twins);
     base->key = limni_allocate(context, KEY_MAX, sizeof *base->key);
     base->edges = limni_allocate(context, RING_MAX, sizeof *base->edges);
     base->beyond = limni_allocate(context, RING_MAX, sizeof *base->beyond);
-    if (!base->controls || !base->key || !base->edges || !base->beyond) return LIMN_BAKE_MEMORY;
+    if (!base->controls || !base->twins || !base->key || !base->edges || !base->beyond)
+        return LIMN_BAKE_MEMORY;
     for (int corner = 0; corner < 3; corner++) {
         limni_star *const star = &base->neighbourhood.corners[corner];
         star->ring = limni_allocate(context, RING_MAX, sizeof *star->ring);
@@ -44,6 +47,7 @@ void limni_classifier_end(limni_context *context, limni_classifier *classifier) 
     limni_release(context, classifier->marks);
     for (int b = 0; b < 2; b++) {
         limni_release(context, classifier->bases[b].controls);
+        limni_release(context, classifier->bases[b].twins);
         limni_release(context, classifier->bases[b].key);
         limni_release(context, classifier->bases[b].edges);
         limni_release(context, classifier->bases[b].beyond);
@@ -52,12 +56,33 @@ void limni_classifier_end(limni_context *context, limni_classifier *classifier) 
     }
 }
 
+/// The first slot of the control points that were one with this, which has none yet; LIMNI_NONE: it
+/// is the first.
+static uint32_t find_twin(const limni_classifier *classifier, const limni_local_base *base,
+                          uint32_t control) {
+    const limni_mesh *const mesh = classifier->mesh;
+    if (!limni_is_split(mesh, control)) return LIMNI_NONE;
+    const uint32_t origin = mesh->origins[control];
+    uint32_t other = control;
+    while (other > 0 && mesh->origins[other - 1] == origin)
+        other--;
+    for (; other < mesh->control_count && mesh->origins[other] == origin; other++) {
+        if (classifier->marks[other] == classifier->mark)
+            return base->twins[classifier->slots[other]];
+    }
+    return LIMNI_NONE;
+}
+
 /// The slot of a control point in the local base that is being built, given when it is first met.
 static uint32_t slot_of(limni_classifier *classifier, limni_local_base *base, uint32_t control) {
     if (classifier->marks[control] != classifier->mark) {
+        const uint32_t slot = base->neighbourhood.control_count++;
+        const uint32_t twin = find_twin(classifier, base, control);
         classifier->marks[control] = classifier->mark;
-        classifier->slots[control] = base->neighbourhood.control_count;
-        base->controls[base->neighbourhood.control_count++] = control;
+        classifier->slots[control] = slot;
+        base->controls[slot] = control;
+        base->twins[slot] = twin == LIMNI_NONE ? slot : twin;
+        base->twin_count += twin != LIMNI_NONE;
     }
     return classifier->slots[control];
 }
@@ -100,7 +125,7 @@ static void walk_rings(limni_classifier *classifier, limni_local_base *base, uin
         neighbourhood->corners[corner].edges = neighbourhood->corners[corner].beyond = NULL;
 }
 
-enum { KEY_RULE = 1, KEY_CREASES = 3, KEY_CHAIKIN = 4 }; // bits
+enum { KEY_RULE = 1, KEY_CREASES = 3, KEY_CHAIKIN = 4, KEY_TWINS = 5 }; // bits
 
 /// What there is at a corner, without the sharpness.
 static uint32_t key_flags(const limni_star *star, const limni_rules *rules, bool tagged) {
@@ -124,7 +149,8 @@ static void write_key(limni_local_base *base, const limni_rules *rules) {
     for (int corner = 0; corner < 3; corner++)
         *key++ = corners[corner].count;
     for (int corner = 0; corner < 3; corner++)
-        *key++ = key_flags(&corners[corner], rules, tagged);
+        *key++ = key_flags(&corners[corner], rules, tagged) | (uint32_t)(base->twin_count > 0)
+                                                                  << KEY_TWINS;
     for (int corner = 0; corner < 3; corner++)
         key = append(key, corners[corner].ring, corners[corner].count);
     for (int corner = 0; corner < 3 && tagged; corner++) {
@@ -132,6 +158,9 @@ static void write_key(limni_local_base *base, const limni_rules *rules) {
         if (!corners[corner].edges) continue;
         key = append(key, corners[corner].edges, corners[corner].count);
         key = append(key, corners[corner].beyond, corners[corner].count);
+    }
+    for (uint32_t slot = 0; slot < base->neighbourhood.control_count && base->twin_count; slot++) {
+        if (base->twins[slot] != slot) key = append(key, (uint32_t[]){slot, base->twins[slot]}, 2);
     }
     base->key_size = (uint32_t)(key - base->key);
 }
@@ -143,10 +172,11 @@ static void build_base(limni_classifier *classifier, limni_local_base *base, uin
         classifier->mark = 1;
     }
     base->rotation = rotation;
-    base->neighbourhood.control_count = 0;
+    base->neighbourhood.control_count = base->twin_count = 0;
     for (uint32_t corner = 0; corner < 3; corner++)
         slot_of(classifier, base, classifier->mesh->faces[face][(corner + rotation) % 3]);
     walk_rings(classifier, base, face);
+    base->neighbourhood.twins = base->twin_count ? base->twins : NULL;
     write_key(base, classifier->rules);
 }
 

@@ -52,15 +52,17 @@ static uint32_t repair_step(const char *name, size_t length) {
     static const struct {
         const char *name;
         uint32_t bit;
-    } steps[] = {{"weld", LIMN_REPAIR_WELD},
-                 {"drop", LIMN_REPAIR_DROP},
-                 {"split", LIMN_REPAIR_SPLIT},
-                 {"all", LIMN_REPAIR_ALL}};
+    } steps[] = {{"weld", LIMN_REPAIR_WELD}, {"drop", LIMN_REPAIR_DROP}, {"all", LIMN_REPAIR_ALL}};
     for (size_t s = 0; s < sizeof steps / sizeof *steps; s++) {
         if (strlen(steps[s].name) == length && memcmp(steps[s].name, name, length) == 0)
             return steps[s].bit;
     }
     return 0;
+}
+
+bool limni_parse_non_manifold(const char *text, limn_non_manifold *policy) {
+    *policy = strcmp(text, "split") == 0 ? LIMN_NON_MANIFOLD_SPLIT : LIMN_NON_MANIFOLD_REFUSE;
+    return *policy == LIMN_NON_MANIFOLD_SPLIT || strcmp(text, "refuse") == 0;
 }
 
 bool limni_parse_repair(const char *text, uint32_t *repair) {

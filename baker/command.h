@@ -39,6 +39,9 @@ typedef struct limni_pack_file {
 bool limni_pack_file_open(limni_pack_file *file, const char *path);
 void limni_pack_file_close(limni_pack_file *file);
 
+/// Reads the argument of --non-manifold.
+bool limni_parse_non_manifold(const char *text, limn_non_manifold *policy);
+
 /// Reads the argument of --repair: names of steps separated by commas; NULL means all.
 bool limni_parse_repair(const char *text, uint32_t *repair);
 

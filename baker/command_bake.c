@@ -40,10 +40,12 @@ static const char help[] =
     "commas:\n"
     "                        weld   merge control points whose positions are equal\n"
     "                        drop   drop degenerate and repeated faces\n"
-    "                        split  cut open non-manifold edges and vertices, and edges whose "
-    "faces\n"
-    "                               are wound inconsistently\n"
-    "                        all    all three, in this order (default)\n"
+    "                        all    both, in this order (default)\n"
+    "      --non-manifold NAME  edges that more than two faces share or whose faces are wound\n"
+    "                        inconsistently, and vertices whose faces are not one chain: refuse\n"
+    "                        (default), or split: as in OpenSubdiv, these edges are sharp and "
+    "these\n"
+    "                        vertices corners; each sheet gets control points of its own\n"
     "  -q, --quiet           only errors\n"
     "  -h, --help            this text\n\n"
     "example: limn bake body.obj head.obj -o hero.limn --weights warren\n";
@@ -88,7 +90,8 @@ enum {
     OPTION_CREASING,
     OPTION_NORMALS,
     OPTION_ISOLATE,
-    OPTION_REPAIR
+    OPTION_REPAIR,
+    OPTION_NON_MANIFOLD
 };
 
 static const struct option options[] = {
@@ -101,6 +104,7 @@ static const struct option options[] = {
     {"normals", required_argument, NULL, OPTION_NORMALS},
     {"isolate", required_argument, NULL, OPTION_ISOLATE},
     {"repair", optional_argument, NULL, OPTION_REPAIR},
+    {"non-manifold", required_argument, NULL, OPTION_NON_MANIFOLD},
     {"quiet", no_argument, NULL, 'q'},
     {"help", no_argument, NULL, 'h'},
     {0},
@@ -170,6 +174,10 @@ static int parse_option(int option, arguments *given) {
     case OPTION_REPAIR:
         if (!limni_parse_repair(optarg, &given->desc.repair))
             return limni_usage_error("bake", "cannot repair '%s'", optarg);
+        return LIMNI_EXIT_OK;
+    case OPTION_NON_MANIFOLD:
+        if (!limni_parse_non_manifold(optarg, &desc->non_manifold))
+            return limni_usage_error("bake", "cannot '%s' what is not a manifold", optarg);
         return LIMNI_EXIT_OK;
     case 'q':
         given->quiet = true;

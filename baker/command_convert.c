@@ -16,8 +16,12 @@ static const char help[] =
     "the tags are lost, with a note.\n\n"
     "  -f, --format NAME     obj, off, ply or lomont, whatever OUT ends with. lomont is Lomont's\n"
     "                        extended OBJ (#SubdivisionSurfL 0.1): triangles, half-edges and\n"
-    "                        sharpness. It must be a manifold; polygons are cut into triangles,\n"
-    "                        and what his format has no entry for follows as OpenSubdiv's tags\n"
+    "                        sharpness. Polygons are cut into triangles, and what his format has "
+    "no\n"
+    "                        entry for follows as OpenSubdiv's tags. It must be a manifold:\n"
+    "      --non-manifold NAME  refuse (default), or split, as for limn bake; other formats do "
+    "not\n"
+    "                        mind\n"
     "  -q, --quiet           only errors\n"
     "  -h, --help            this text\n\n"
     "IN is .obj, .off or .ply. An .obj that begins with #SubdivisionSurfL is Lomont's.\n\n"
@@ -34,11 +38,15 @@ typedef enum mesh_format {
 typedef struct arguments {
     const char *input, *output;
     mesh_format format;
+    limn_non_manifold non_manifold;
     bool quiet, help;
 } arguments;
 
+enum { OPTION_NON_MANIFOLD = 256 };
+
 static const struct option options[] = {
     {"format", required_argument, NULL, 'f'},
+    {"non-manifold", required_argument, NULL, OPTION_NON_MANIFOLD},
     {"quiet", no_argument, NULL, 'q'},
     {"help", no_argument, NULL, 'h'},
     {0},
@@ -81,6 +89,10 @@ static int parse(int argc, char **argv, arguments *given) {
             given->format = format_named(optarg);
             if (given->format == FORMAT_UNKNOWN)
                 return limni_usage_error("convert", "there is no format '%s'", optarg);
+            break;
+        case OPTION_NON_MANIFOLD:
+            if (!limni_parse_non_manifold(optarg, &given->non_manifold))
+                return limni_usage_error("convert", "cannot '%s' what is not a manifold", optarg);
             break;
         case 'q':
             given->quiet = true;
@@ -144,11 +156,12 @@ static limn_bake_status convert(limni_context *context, const arguments *given) 
     }
     if (given->format == FORMAT_OFF || given->format == FORMAT_PLY)
         note_lost(context, &source, given->output);
-    const uint32_t face_count =
-        given->format == FORMAT_LOMONT ? mesh.face_count : source.face_count;
     LIMNI_TRY(write(context, given, &source, &mesh));
+    const bool built = given->format == FORMAT_LOMONT;
     if (!given->quiet)
-        printf("%s: %u vertices, %u faces\n", given->output, source.position_count, face_count);
+        printf("%s: %u vertices, %u faces\n", given->output,
+               built ? mesh.control_count : source.position_count,
+               built ? mesh.face_count : source.face_count);
     return LIMN_BAKE_OK;
 }
 
@@ -160,6 +173,7 @@ int limni_command_convert(int argc, char **argv) {
         fputs(help, stdout);
         return LIMNI_EXIT_OK;
     }
-    limni_context context = {.desc = {.note = print_note, .user = &given}};
+    limni_context context = {
+        .desc = {.non_manifold = given.non_manifold, .note = print_note, .user = &given}};
     return limni_command_end(&context, convert(&context, &given));
 }

@@ -23,6 +23,7 @@ static const char help[] =
     "      --against FILE   the mesh (.obj, .off, .ply) that was baked\n"
     "      --mesh N         which mesh of the file, from 0 (default 0)\n"
     "      --repair[=STEPS] as for limn bake, if the mesh was repaired then\n"
+    "      --non-manifold NAME  likewise\n"
     "      --tolerance X    fail when the largest difference is above X (default: 3e-7, and what\n"
     "                       rounding coordinates to floats adds far from the origin)\n"
     "  -h, --help           this text\n";
@@ -30,16 +31,18 @@ static const char help[] =
 typedef struct arguments {
     const char *input, *against;
     uint32_t mesh, repair;
+    limn_non_manifold non_manifold;
     float tolerance; ///< negative: the default
     bool help;
 } arguments;
 
-enum { OPTION_AGAINST = 256, OPTION_MESH, OPTION_REPAIR, OPTION_TOLERANCE };
+enum { OPTION_AGAINST = 256, OPTION_MESH, OPTION_REPAIR, OPTION_NON_MANIFOLD, OPTION_TOLERANCE };
 
 static const struct option options[] = {
     {"against", required_argument, NULL, OPTION_AGAINST},
     {"mesh", required_argument, NULL, OPTION_MESH},
     {"repair", optional_argument, NULL, OPTION_REPAIR},
+    {"non-manifold", required_argument, NULL, OPTION_NON_MANIFOLD},
     {"tolerance", required_argument, NULL, OPTION_TOLERANCE},
     {"help", no_argument, NULL, 'h'},
     {0},
@@ -56,6 +59,9 @@ static int parse_option(int option, arguments *given) {
     case OPTION_REPAIR:
         if (limni_parse_repair(optarg, &given->repair)) return LIMNI_EXIT_OK;
         return limni_usage_error("verify", "cannot repair '%s'", optarg);
+    case OPTION_NON_MANIFOLD:
+        if (limni_parse_non_manifold(optarg, &given->non_manifold)) return LIMNI_EXIT_OK;
+        return limni_usage_error("verify", "cannot '%s' what is not a manifold", optarg);
     case OPTION_TOLERANCE:
         if (limni_parse_real(optarg, 0, FLT_MAX, &given->tolerance)) return LIMNI_EXIT_OK;
         return limni_usage_error("verify", "'%s' is not a tolerance", optarg);
@@ -82,7 +88,8 @@ static int verify(const arguments *given, const limn_pack *pack) {
     if (given->mesh >= pack->mesh_count)
         return limni_failure("%s: there is no mesh %u; the file has %u", given->input, given->mesh,
                              pack->mesh_count);
-    limni_context context = {.desc = {.repair = given->repair}};
+    limni_context context = {
+        .desc = {.repair = given->repair, .non_manifold = given->non_manifold}};
     const limn_mesh mesh = limn_pack_mesh(pack, given->mesh);
     limni_comparison comparison;
     const int compared = limni_command_end(

@@ -14,14 +14,16 @@ static limn_bake_status check_same(limni_context *context, const limn_mesh *mesh
     if (mesh->control_count != source->control_count || mesh->face_count != source->face_count ||
         memcmp(mesh->controls, source->controls,
                source->control_count * sizeof *source->controls) != 0)
-        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                          "%s: mesh '%s' was baked from something else, or repaired differently",
-                          source->path, mesh->name);
+        return limni_fail(
+            context, LIMN_BAKE_BAD_INPUT,
+            "%s: mesh '%s' was baked from something else, or repaired or split differently",
+            source->path, mesh->name);
     return LIMN_BAKE_OK;
 }
 
 /// OpenSubdiv's surface: [face_count][153] of each.
 typedef struct answer {
+    const limni_mesh *built; ///< split where it is no manifold
     double (*limit)[3];
     double (*tangents)[2][3]; ///< NULL for a mesh without normals
     bool *comparable;         ///< [control_count] whether normals are, at control points
@@ -77,7 +79,7 @@ static bool has_comparable_normals(const limni_star *star, bool sided) {
     }
 }
 
-/// Finds which control points have normals that can be compared.
+/// Finds which control points have normals that can be compared. Those that were split have several.
 static limn_bake_status find_comparable(limni_context *context, const limni_mesh *source,
                                         const limni_opensubdiv_mesh *how, bool **comparable) {
     const limni_rules rules = {.boundary = how->boundary, .creasing = how->creasing};
@@ -92,7 +94,7 @@ static limn_bake_status find_comparable(limni_context *context, const limni_mesh
     for (uint32_t c = 0; c < source->control_count; c++) {
         limni_star star = {
             .ring = room, .edges = room + valence_max, .beyond = room + 2 * (size_t)valence_max};
-        if (source->first[c] == LIMNI_NONE) continue;
+        if (source->first[c] == LIMNI_NONE || limni_is_split(source, c)) continue;
         limni_mesh_star(source, &sharpness, &rules, source->first[c], &star);
         (*comparable)[c] = has_comparable_normals(&star, how->creasing != LIMN_CREASING_CHAIKIN);
     }
@@ -101,8 +103,23 @@ static limn_bake_status find_comparable(limni_context *context, const limni_mesh
     return LIMN_BAKE_OK;
 }
 
-static limn_bake_status oracle(limni_context *context, const limn_pack *pack,
-                               const limni_mesh *source, bool with_normals, answer *given) {
+/// A mesh twice.
+typedef struct subject {
+    limni_mesh built; ///< split where it is no manifold, if that was asked for
+    limni_mesh whole; ///< as OpenSubdiv takes it; with the same faces, half-edges and holes
+} subject;
+
+static limn_bake_status read_subject(limni_context *context, const char *path, subject *s) {
+    limni_source source = {0}, again = {0};
+    LIMNI_TRY(limni_read_file(context, path, &source));
+    LIMNI_TRY(limni_mesh_build(context, &source, &s->built));
+    LIMNI_TRY(limni_read_file(context, path, &again));
+    return limni_mesh_begin(context, &again, &s->whole);
+}
+
+static limn_bake_status oracle(limni_context *context, const limn_pack *pack, const subject *s,
+                               bool with_normals, answer *given) {
+    const limni_mesh *const source = &s->whole;
     char scheme[32], weights[32], boundary[32], creasing[32], error[512];
     limni_info_value(pack->info, "scheme", scheme, sizeof scheme);
     limni_info_value(pack->info, "weights", weights, sizeof weights);
@@ -134,7 +151,7 @@ static limn_bake_status oracle(limni_context *context, const limn_pack *pack,
     if (with_normals) given->tangents = limni_allocate(context, count, sizeof *given->tangents);
     if (!given->limit || (with_normals && !given->tangents)) return LIMN_BAKE_MEMORY;
     given->sided = mesh.creasing != LIMN_CREASING_CHAIKIN;
-    LIMNI_TRY(find_comparable(context, source, &mesh, &given->comparable));
+    LIMNI_TRY(find_comparable(context, &s->built, &mesh, &given->comparable));
     if (!limni_opensubdiv_limit(&mesh, given->limit, given->tangents, error, sizeof error))
         return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: OpenSubdiv: %s", source->path, error);
     return LIMN_BAKE_OK;
@@ -189,13 +206,27 @@ static double angle_between(const float normal[3], const double tangents[2][3]) 
     return atan2(length(across), along); // exact for small angles, unlike acos
 }
 
-static bool is_comparable(const limn_mesh *mesh, const bool *comparable, bool sided, uint32_t patch,
+/// The edges of a patch between two vertices that were split: one of each has OpenSubdiv's tangents.
+static uint32_t split_edges(const limn_mesh *mesh, const limni_mesh *built, uint32_t patch) {
+    uint32_t corners[LIMN_CORNER_MAX], edges = 0;
+    limn_mesh_corners(mesh, patch, corners);
+    for (uint32_t e = 0; e < 3; e++)
+        edges |= (uint32_t)(limni_is_split(built, corners[e]) &&
+                            limni_is_split(built, corners[(e + 1) % 3]))
+                 << e;
+    return edges;
+}
+
+static bool is_comparable(const limn_mesh *mesh, const answer *given, uint32_t patch,
                           uint32_t row) {
     uint32_t corners[LIMN_CORNER_MAX];
-    if (row >= mesh->domain->corner_count)
-        return sided || !mesh->creases || !(mesh->creases[patch] & mesh->domain->rows[row].edges);
-    limn_mesh_corners(mesh, patch, corners);
-    return comparable[corners[row]];
+    if (row < mesh->domain->corner_count) {
+        limn_mesh_corners(mesh, patch, corners);
+        return given->comparable[corners[row]];
+    }
+    const uint32_t edges = mesh->domain->rows[row].edges;
+    if (edges & split_edges(mesh, given->built, patch)) return false;
+    return given->sided || !mesh->creases || !(mesh->creases[patch] & edges);
 }
 
 static void compare_normals(const limn_mesh *mesh, const answer *given, uint32_t patch,
@@ -206,7 +237,7 @@ static void compare_normals(const limn_mesh *mesh, const answer *given, uint32_t
     const double(*const tangents)[2][3] = (const double(*)[2][3])given->tangents;
     for (uint32_t row = 0; row < row_count; row++) {
         const size_t other = (size_t)face.face * row_count + unrotated[face.rotation][row];
-        if (!is_comparable(mesh, given->comparable, given->sided, patch, row)) continue;
+        if (!is_comparable(mesh, given, patch, row)) continue;
         if (!span_plane(tangents[other], 1e-9 * comparison->diagonal)) {
             comparison->degenerate_count++;
             continue;
@@ -243,13 +274,11 @@ static void compare_patch(const limn_mesh *mesh, uint32_t patch, const float (*v
 
 limn_bake_status limni_compare(limni_context *context, const limn_pack *pack, const limn_mesh *mesh,
                                const char *path, limni_comparison *comparison) {
-    limni_source source = {0};
-    limni_mesh built;
-    answer given = {0};
-    LIMNI_TRY(limni_read_file(context, path, &source));
-    LIMNI_TRY(limni_mesh_build(context, &source, &built));
-    LIMNI_TRY(check_same(context, mesh, &built));
-    LIMNI_TRY(oracle(context, pack, &built, mesh->normals, &given));
+    subject read;
+    answer given = {.built = &read.built};
+    LIMNI_TRY(read_subject(context, path, &read));
+    LIMNI_TRY(check_same(context, mesh, &read.built));
+    LIMNI_TRY(oracle(context, pack, &read, mesh->normals, &given));
 
     const limn_plan plan = limn_plan_uniform(mesh, LIMN_LEVEL_MAX);
     float(*const vertices)[3] =

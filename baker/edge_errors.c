@@ -3,6 +3,8 @@
 
 #include "../runtime/edge_error.h"
 #include "deviation.h"
+#include "hash.h"
+#include "topology.h"
 
 #include <math.h>
 
@@ -146,6 +148,40 @@ static limn_bake_status measure(limni_context *context, const limni_mesh *mesh,
     return LIMN_BAKE_OK;
 }
 
+// ---- Sheets
+
+static void raise_error(edge_error *error, const edge_error *least) {
+    for (uint32_t level = 0; level < LIMN_LEVEL_MAX; level++) {
+        if (error->levels[level] < least->levels[level])
+            error->levels[level] = least->levels[level];
+    }
+}
+
+/// Gives all sheets that were one edge the largest of their errors, so that they have one level.
+static limn_bake_status share_errors(limni_context *context, const limni_mesh *mesh,
+                                     edge_error *errors) {
+    const uint32_t half_edge_count = 3 * mesh->face_count;
+    if (!mesh->origins) return LIMN_BAKE_OK;
+    limni_keyed_edge *const edges = limni_allocate(context, half_edge_count, sizeof *edges);
+    size_t count = 0;
+    if (!edges) return LIMN_BAKE_MEMORY;
+    for (uint32_t h = 0; h < half_edge_count; h++) {
+        const uint32_t a = limni_half_edge_start(mesh, h), b = limni_half_edge_end(mesh, h);
+        if (!limni_is_split(mesh, a) || !limni_is_split(mesh, b)) continue;
+        edges[count++] = (limni_keyed_edge){limni_edge_key(mesh->origins[a], mesh->origins[b]), h};
+    }
+    limni_sort_edges(edges, count);
+    for (size_t begin = 0, end; begin < count; begin = end) {
+        edge_error largest = {0};
+        for (end = begin; end < count && edges[end].key == edges[begin].key; end++)
+            raise_error(&largest, &errors[edges[end].half_edge]);
+        for (size_t e = begin; e < end; e++)
+            errors[edges[e].half_edge] = largest;
+    }
+    limni_release(context, edges);
+    return LIMN_BAKE_OK;
+}
+
 // ---- Encoding
 
 /// The least code that is not below: rounding up what is behind the two bits of the mantissa may
@@ -220,6 +256,7 @@ limn_bake_status limni_edge_errors_build(limni_context *context, const limni_mes
     patches->errors = limni_allocate(context, 3 * (size_t)patch_count, sizeof *patches->errors);
     if (!errors || !patches->errors) return LIMN_BAKE_MEMORY;
     LIMNI_TRY(measure(context, mesh, classes, pieces, patches, errors));
+    LIMNI_TRY(share_errors(context, mesh, errors));
     for (uint32_t p = 0; p < patch_count; p++) {
         const uint32_t face = patches->faces[p] >> 2, rotation = patches->faces[p] & 3;
         for (uint32_t edge = 0; edge < 3; edge++)

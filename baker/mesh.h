@@ -18,14 +18,16 @@
 typedef struct limni_mesh {
     const char *name;
     const char *path;                ///< NULL for a mesh from memory
-    const uint32_t *control_numbers; ///< as read, from 0; NULL: the index
-    const uint32_t *control_lines;   ///< [control_count] or NULL
+    const uint32_t *control_numbers; ///< of the source, as read, from 0; NULL: the index
+    const uint32_t *control_lines;   ///< of the source, or NULL
     const uint32_t *face_numbers;    ///< by polygon, as read, from 0
     const uint32_t *face_lines;      ///< by polygon, or NULL
     uint32_t index_base;
     uint32_t control_count;
     uint32_t face_count;
     float (*controls)[3]; ///< [control_count]
+    uint32_t *origins; ///< [control_count] where a mesh was split, the control point of the source
+                       ///< that each is, ascending; NULL: the index
     uint32_t (*faces)[3]; ///< [face_count] control points, counter-clockwise
     uint32_t *polygons;   ///< [face_count] the source face that a triangle came from
     uint32_t *pairs;      ///< [3 * face_count] the opposite half-edge, or LIMNI_NONE on a boundary
@@ -65,13 +67,26 @@ static inline bool limni_is_boundary(const limni_mesh *mesh, uint32_t control) {
     return h != LIMNI_NONE && mesh->pairs[h] == LIMNI_NONE;
 }
 
+/// The control point before the mesh was split.
+static inline uint32_t limni_origin(const limni_mesh *mesh, uint32_t control) {
+    return mesh->origins ? mesh->origins[control] : control;
+}
+
+/// Whether the control point is one of several that were one.
+static inline bool limni_is_split(const limni_mesh *mesh, uint32_t control) {
+    const uint32_t *const origins = mesh->origins;
+    if (!origins) return false;
+    return (control > 0 && origins[control - 1] == origins[control]) ||
+           (control + 1 < mesh->control_count && origins[control + 1] == origins[control]);
+}
+
 /// "face 12 (line 40)", in the file's own numbering. Returns `text`.
 typedef char limni_place[64];
 const char *limni_face_place(const limni_mesh *mesh, uint32_t face, limni_place text);
 const char *limni_control_place(const limni_mesh *mesh, uint32_t control, limni_place text);
 
 /// The steps from a source to a mesh, in this order. Each fails with LIMN_BAKE_BAD_INPUT on what it
-/// cannot take, unless context->desc.repair allows it to mend it.
+/// cannot take, unless context->desc allows it to mend or split it.
 limn_bake_status limni_check_tags(limni_context *context, limni_source *source);
 limn_bake_status limni_weld(limni_context *context, limni_source *source);
 limn_bake_status limni_check_faces(limni_context *context, limni_source *source);
@@ -81,7 +96,8 @@ limn_bake_status limni_tag_mesh(limni_context *context, const limni_source *sour
                                 limni_mesh *mesh);
 limn_bake_status limni_connect(limni_context *context, limni_mesh *mesh);
 
-/// All of them.
+/// All of them but the last, and all.
+limn_bake_status limni_mesh_begin(limni_context *context, limni_source *source, limni_mesh *mesh);
 limn_bake_status limni_mesh_build(limni_context *context, limni_source *source, limni_mesh *mesh);
 
 #endif

@@ -23,13 +23,34 @@ static bool has_open_boundary(const limni_mesh *mesh, uint32_t control) {
     return mesh->edge_sharpness[first] < LIMNI_SHARP_FOR_EVER || incoming < LIMNI_SHARP_FOR_EVER;
 }
 
+static void open_fan(limni_mesh *mesh, uint32_t control) {
+    uint32_t h = mesh->first[control];
+    if (h == LIMNI_NONE) return;
+    do {
+        mesh->hole_count += !mesh->holes[h / 3];
+        mesh->holes[h / 3] = true;
+        h = limni_half_edge_turn(mesh, h);
+    } while (h != LIMNI_NONE && h != mesh->first[control]);
+}
+
+/// Past the control points that were one.
+static uint32_t end_of_split(const limni_mesh *mesh, uint32_t control) {
+    uint32_t end = control + 1;
+    while (mesh->origins && end < mesh->control_count &&
+           mesh->origins[end] == mesh->origins[control])
+        end++;
+    return end;
+}
+
+/// Sheets that were one vertex open together.
 void limni_mesh_open_boundary(limni_mesh *mesh) {
-    for (uint32_t c = 0; c < mesh->control_count; c++) {
-        if (!limni_is_boundary(mesh, c) || !has_open_boundary(mesh, c)) continue;
-        for (uint32_t h = mesh->first[c]; h != LIMNI_NONE; h = limni_half_edge_turn(mesh, h)) {
-            mesh->hole_count += !mesh->holes[h / 3];
-            mesh->holes[h / 3] = true;
-        }
+    for (uint32_t begin = 0, end; begin < mesh->control_count; begin = end) {
+        bool open = false;
+        end = end_of_split(mesh, begin);
+        for (uint32_t c = begin; c < end; c++)
+            open |= limni_is_boundary(mesh, c) && has_open_boundary(mesh, c);
+        for (uint32_t c = begin; c < end && open; c++)
+            open_fan(mesh, c);
     }
 }
 
@@ -58,9 +79,10 @@ static limn_bake_status convert_edges(limni_context *context, const limni_mesh *
     return LIMN_BAKE_OK;
 }
 
-/// A boundary vertex with a single face.
+/// A boundary vertex with a single face on all its sheets.
 static bool is_boundary_corner(const limni_mesh *mesh, uint32_t control) {
-    return limni_is_boundary(mesh, control) && mesh->valences[control] == 2;
+    return limni_is_boundary(mesh, control) && mesh->valences[control] == 2 &&
+           !limni_is_split(mesh, control);
 }
 
 limn_bake_status limni_mesh_sharpness_begin(limni_context *context, const limni_mesh *mesh,

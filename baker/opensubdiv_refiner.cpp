@@ -49,15 +49,11 @@ void require(bool condition, const std::string &text) {
 
 namespace {
 
-std::string vertex_name(int vertex) {
-    return "vertex " + std::to_string(vertex);
-}
-
 /// OpenSubdiv counts in int, unchecked: 768 corners of level-4 faces and some 1800 stencil weights
 /// for each base face.
 constexpr uint32_t FACE_COUNT_MAX = 1000000;
 
-/// OpenSubdiv trusts its indices, and crashes or takes for non-manifold what this refuses by name.
+/// OpenSubdiv trusts its indices: it crashes on what this refuses by name, or makes little of it.
 void require_faces(const limni_opensubdiv_mesh &mesh) {
     require(mesh.position_count > 0 && mesh.position_count <= INT_MAX, "too few or many positions");
     require(mesh.face_count > 0 && mesh.face_count <= FACE_COUNT_MAX, "too few or many faces");
@@ -70,22 +66,6 @@ void require_faces(const limni_opensubdiv_mesh &mesh) {
         if (!in_range || !distinct)
             require(false, "face " + std::to_string(face) +
                                (in_range ? " uses a vertex twice" : " has an index out of range"));
-    }
-}
-
-/// OpenSubdiv accepts non-manifold meshes and gives them rules of its own (sharp creases), which
-/// are nobody's reference.
-void require_manifold(const Far::TopologyLevel &base) {
-    for (int edge = 0; edge < base.GetNumEdges(); edge++) {
-        if (!base.IsEdgeNonManifold(edge)) continue;
-        const Far::ConstIndexArray ends = base.GetEdgeVertices(edge);
-        require(false, "the edge between " + vertex_name(ends[0]) + " and " + vertex_name(ends[1]) +
-                           " is not manifold");
-    }
-    for (int vertex = 0; vertex < base.GetNumVertices(); vertex++) {
-        const bool used = base.GetVertexFaces(vertex).size() > 0;
-        if (used && base.IsVertexNonManifold(vertex))
-            require(false, vertex_name(vertex) + " is not manifold");
     }
 }
 
@@ -162,7 +142,6 @@ refiner_pointer create_refiner(const limni_opensubdiv_mesh &mesh) {
     options.validateFullTopology = true;
     refiner_pointer refiner(factory::Create(descriptor, options));
     require(refiner != nullptr, "OpenSubdiv refused the mesh");
-    require_manifold(refiner->GetLevel(0));
     return refiner;
 }
 

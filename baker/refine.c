@@ -1,12 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 #include "refine.h"
 
+#include "hash.h"
+#include "topology.h"
+
 typedef struct refiner {
     limni_context *context;
     const limni_mesh *mesh;
     const limni_mesh_sharpness *sharpness;
     const limni_rules *rules;
-    uint32_t *points; ///< [3 * face_count] of half-edges: the point on the edge
+    uint32_t *points;        ///< [3 * face_count] of half-edges: the point on the edge
+    uint32_t *origins;       ///< [point_count] see limni_mesh
+    limni_keyed_edge *edges; ///< [edge_count] in the order of their points
+    uint32_t edge_count, point_count;
     limni_refined *made;
     limni_star star;       ///< of one control point
     limni_fixed *weights;  ///< [1 + widest]
@@ -16,14 +22,54 @@ typedef struct refiner {
 
 // ---- Points
 
-/// Returns how many there are.
-static uint32_t number_points(const limni_mesh *mesh, uint32_t *points) {
-    uint32_t count = mesh->control_count;
+/// The edges in the order of their points. Where the mesh was split, those that were one edge are
+/// side by side, so that each sheet has their points in the same order (baker/split.c).
+static uint32_t list_edges(const limni_mesh *mesh, limni_keyed_edge *edges) {
+    uint32_t count = 0;
     for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
-        const uint32_t pair = mesh->pairs[h];
-        points[h] = pair == LIMNI_NONE || h < pair ? count++ : points[pair];
+        if (mesh->pairs[h] != LIMNI_NONE && mesh->pairs[h] < h) continue;
+        const uint32_t a = limni_half_edge_start(mesh, h), b = limni_half_edge_end(mesh, h);
+        edges[count++] =
+            (limni_keyed_edge){limni_edge_key(limni_origin(mesh, a), limni_origin(mesh, b)), h};
     }
+    if (mesh->origins) limni_sort_edges(edges, count);
     return count;
+}
+
+/// Whether two edges were one: with both ends on several sheets.
+static bool were_one(const limni_mesh *mesh, const limni_keyed_edge *a, const limni_keyed_edge *b) {
+    return a->key == b->key && limni_is_split(mesh, limni_half_edge_start(mesh, a->half_edge)) &&
+           limni_is_split(mesh, limni_half_edge_end(mesh, a->half_edge));
+}
+
+/// Of points that were one, the first.
+static void find_origins(const limni_mesh *mesh, const limni_keyed_edge *edges, uint32_t edge_count,
+                         uint32_t *origins) {
+    for (uint32_t c = 0; c < mesh->control_count; c++)
+        origins[c] = c > 0 && mesh->origins[c - 1] == mesh->origins[c] ? origins[c - 1] : c;
+    for (uint32_t e = 0; e < edge_count; e++) {
+        uint32_t *const origin = &origins[mesh->control_count + e];
+        *origin = e > 0 && were_one(mesh, &edges[e - 1], &edges[e]) ? origin[-1]
+                                                                    : mesh->control_count + e;
+    }
+}
+
+static limn_bake_status number_points(refiner *r) {
+    const limni_mesh *const mesh = r->mesh;
+    r->edges = limni_allocate(r->context, 3 * (size_t)mesh->face_count, sizeof *r->edges);
+    if (!r->edges) return LIMN_BAKE_MEMORY;
+    r->edge_count = list_edges(mesh, r->edges);
+    for (uint32_t e = 0; e < r->edge_count; e++) {
+        const uint32_t h = r->edges[e].half_edge, point = mesh->control_count + e;
+        r->points[h] = point;
+        if (mesh->pairs[h] != LIMNI_NONE) r->points[mesh->pairs[h]] = point;
+    }
+    r->point_count = mesh->control_count + r->edge_count;
+    if (!mesh->origins) return LIMN_BAKE_OK;
+    r->origins = limni_allocate(r->context, r->point_count, sizeof *r->origins);
+    if (!r->origins) return LIMN_BAKE_MEMORY;
+    find_origins(mesh, r->edges, r->edge_count, r->origins);
+    return LIMN_BAKE_OK;
 }
 
 // ---- Faces
@@ -131,6 +177,18 @@ static void look_around(refiner *r, uint32_t control) {
     }
 }
 
+/// By ascending control points: so sheets, whose rings start anywhere, add theirs in the same order.
+static void end_stencil(const refiner *r, uint32_t point) {
+    limn_file_term *const terms = r->made->terms + r->made->stencils[point];
+    for (uint32_t k = 1; k < r->term_count - r->made->stencils[point]; k++) {
+        const limn_file_term term = terms[k];
+        uint32_t at = k;
+        for (; at > 0 && terms[at - 1].control > term.control; at--)
+            terms[at] = terms[at - 1];
+        terms[at] = term;
+    }
+}
+
 static void add_vertex_stencil(refiner *r, uint32_t control) {
     if (r->mesh->first[control] == LIMNI_NONE) {
         add_term(r, control, LIMNI_FIXED_ONE);
@@ -156,14 +214,16 @@ static void add_edge_stencil(refiner *r, uint32_t control, uint32_t k) {
 
 static void add_edge_stencils(refiner *r) {
     const limni_mesh *const mesh = r->mesh;
-    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
-        if (mesh->pairs[h] != LIMNI_NONE && mesh->pairs[h] < h) continue;
-        look_around(r, limni_half_edge_start(mesh, h));
+    for (uint32_t e = 0; e < r->edge_count; e++) {
+        const uint32_t point = mesh->control_count + e;
+        const uint32_t start = limni_half_edge_start(mesh, r->edges[e].half_edge);
+        look_around(r, start);
         uint32_t k = 0;
-        while (r->ring_points[k] != r->points[h])
+        while (r->ring_points[k] != point)
             k++;
-        r->made->stencils[r->points[h]] = r->term_count;
-        add_edge_stencil(r, limni_half_edge_start(mesh, h), k);
+        r->made->stencils[point] = r->term_count;
+        add_edge_stencil(r, start, k);
+        end_stencil(r, point);
     }
 }
 
@@ -189,6 +249,7 @@ static limn_bake_status make_stencils(refiner *r) {
     for (uint32_t c = 0; c < mesh->control_count; c++) {
         r->made->stencils[c] = r->term_count;
         add_vertex_stencil(r, c);
+        end_stencil(r, c);
     }
     add_edge_stencils(r);
     r->made->stencils[point_count] = r->term_count;
@@ -197,7 +258,8 @@ static limn_bake_status make_stencils(refiner *r) {
 
 // ---- All of it
 
-static limn_bake_status begin_mesh(const refiner *r, uint32_t point_count) {
+static limn_bake_status begin_mesh(const refiner *r) {
+    const uint32_t point_count = r->point_count;
     limni_context *const context = r->context;
     const size_t face_count = 4 * (size_t)r->mesh->face_count;
     limni_mesh *const made = &r->made->mesh;
@@ -206,6 +268,7 @@ static limn_bake_status begin_mesh(const refiner *r, uint32_t point_count) {
     made->face_count = (uint32_t)face_count;
     made->hole_count = 4 * r->mesh->hole_count;
     made->controls = NULL;
+    made->origins = r->origins;
     made->edge_sharpness = made->vertex_sharpness = NULL;
     made->faces = limni_allocate(context, face_count, sizeof *made->faces);
     made->polygons = limni_allocate(context, face_count, sizeof *made->polygons);
@@ -230,13 +293,15 @@ limn_bake_status limni_refine(limni_context *context, const limni_mesh *mesh,
                  .made = refined};
     *refined = (limni_refined){0};
     if (!r.points) return LIMN_BAKE_MEMORY;
-    LIMNI_TRY(begin_mesh(&r, number_points(mesh, r.points)));
+    LIMNI_TRY(number_points(&r));
+    LIMNI_TRY(begin_mesh(&r));
     for (uint32_t face = 0; face < mesh->face_count; face++)
         split_face(&r, face);
     find_first(&r);
     LIMNI_TRY(sharpen(&r));
     LIMNI_TRY(make_stencils(&r));
     limni_release(context, r.points);
+    limni_release(context, r.edges);
     limni_release(context, r.star.ring);
     limni_release(context, r.star.edges);
     limni_release(context, r.star.beyond);
@@ -253,4 +318,5 @@ void limni_refined_end(limni_context *context, limni_refined *refined) {
     limni_release(context, refined->mesh.pairs);
     limni_release(context, refined->mesh.first);
     limni_release(context, refined->mesh.valences);
+    limni_release(context, refined->mesh.origins);
 }

@@ -324,11 +324,11 @@ static limn_bake_status begin(const subdivision *s, const limni_star *stars, uin
     return LIMN_BAKE_OK;
 }
 
-/// Each vertex is a control point.
-static void set_identity(const subdivision *s, complex *c) {
+/// Each vertex is a control point, its own or that of its twin.
+static void set_identity(const subdivision *s, const uint32_t *twins, complex *c) {
     memset(c->coefficients, 0, (size_t)c->vertex_count * s->control_count * sizeof(limni_fixed));
     for (uint32_t v = 0; v < c->vertex_count; v++)
-        vertex_of(s, c, v)[v] = LIMNI_FIXED_ONE;
+        vertex_of(s, c, v)[twins ? twins[v] : v] = LIMNI_FIXED_ONE;
 }
 
 // ---- The limit
@@ -463,7 +463,7 @@ limn_bake_status limni_subdivide(limni_context *context, const limni_rules *rule
     complex level;
     LIMNI_TRY(begin_subdivision(context, rules, control_count, &s));
     LIMNI_TRY(begin(&s, neighbourhood->corners, 3, control_count, &level));
-    set_identity(&s, &level);
+    set_identity(&s, neighbourhood->twins, &level);
     for (int n = 1; n <= depth; n++) {
         complex next;
         LIMNI_TRY(refine(&s, &level, s.domain->row_counts[n], &next));
@@ -490,7 +490,7 @@ limn_bake_status limni_star_tangents(limni_context *context, const limni_rules *
     LIMNI_TRY(begin(&s, star, 1, 1 + star->count, &c));
     for (uint32_t r = 0; r < star->count; r++)
         c.stars[0].ring[r] = 1 + r;
-    set_identity(&s, &c);
+    set_identity(&s, NULL, &c);
     LIMNI_TRY(settle(&s, &c));
     project(&s, &c, 0, half_steps, &(limit_rows){.tangents = {along, across}});
     release_level(&s, &c);

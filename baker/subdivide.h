@@ -9,6 +9,8 @@
 typedef struct limni_neighbourhood {
     uint32_t control_count; ///< K: slots 0, 1, 2 are the corners, the others follow around them
     limni_star corners[3];  ///< rings of slots
+    const uint32_t *twins;  ///< [control_count] of slots that are in the same place for ever, the
+                            ///< first, which has the coefficients of all; NULL: none are
 } limni_neighbourhood;
 
 /// What becomes of the vertices after the last level.

@@ -120,7 +120,8 @@ static outcome bake_once(const char *path, uint32_t squares, bool with_stencils)
     limn_bake_mesh grid = {0};
     if (!path) grid = make_grid(squares);
     const double start = bench_seconds();
-    limn_baker *const baker = limn_baker_create(&(limn_bake_desc){.repair = LIMN_REPAIR_ALL});
+    limn_baker *const baker = limn_baker_create(
+        &(limn_bake_desc){.repair = LIMN_REPAIR_ALL, .non_manifold = LIMN_NON_MANIFOLD_SPLIT});
     if (!baker ||
         (path ? limn_baker_add_file(baker, path) : limn_baker_add_mesh(baker, &grid)) !=
             LIMN_BAKE_OK ||

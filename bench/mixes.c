@@ -218,8 +218,10 @@ bool bench_mix_file(bench_mix *mix, const char *path) {
         fprintf(stderr, "limn-bench: %s\n", error);
         return false;
     }
-    mix->baker = limn_baker_create(&(limn_bake_desc){
-        .normals = LIMN_NORMALS_EXACT, .repair = LIMN_REPAIR_ALL, .note = bench_note});
+    mix->baker = limn_baker_create(&(limn_bake_desc){.normals = LIMN_NORMALS_EXACT,
+                                                     .repair = LIMN_REPAIR_ALL,
+                                                     .non_manifold = LIMN_NON_MANIFOLD_SPLIT,
+                                                     .note = bench_note});
     return bake_mix(mix, name,
                     mix->baker ? limn_baker_add_file(mix->baker, path) : LIMN_BAKE_MEMORY);
 }

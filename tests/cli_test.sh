@@ -360,6 +360,10 @@ notes 'extra.obj: ignored: 1 corners that name no vertex (the first is in line 2
 grep -q 'corner 1/1/0 9' kept_tags.obj && fail "convert keeps the tag of a vertex that is not there"
 refuses 1 'edge.obj: non-manifold edge' convert edge.obj new.obj --format lomont
 works convert edge.obj edge.ply
+refuses 2 "cannot 'weld' what is not" convert edge.obj new.obj --non-manifold weld
+notes 'edge.obj: split: 1 edges' convert edge.obj split_lomont.obj --format lomont --non-manifold split
+says stdout '^split_lomont.obj: 9 vertices, 3 faces$'
+works bake split_lomont.obj -o split_lomont.limn -q
 refuses 1 'missing.obj: cannot be read' convert missing.obj new.ply
 refuses 1 'nan.obj:1: ' convert nan.obj new.ply
 refuses 1 'no_folder/new.ply: cannot ' convert house.obj no_folder/new.ply -q
@@ -391,10 +395,6 @@ expect "welded vertices beside an unused one" "$(grep -c '^v ' far_dense.obj)" 1
 
 # ---- Repair
 
-notes 'edge.obj: repaired: ' bake edge.obj -o repaired.limn --repair
-works info repaired.limn
-notes 'repaired: 1 control points added' bake vertex.obj -o repaired.limn --repair=split
-notes 'repaired: ' bake winding.obj -o repaired.limn --repair=split
 notes 'repaired: 1 degenerate and 0 repeated' bake degenerate.obj -o repaired.limn --repair=drop
 notes 'repaired: 0 degenerate and 1 repeated' bake repeated.obj -o repaired.limn --repair=weld,drop
 printf "${four}v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 3 2\nf 5 6 4\nf 2 7 4\nf 3 1 4\n" >loose.obj
@@ -402,8 +402,8 @@ notes 'loose.obj: repaired: 3 control points welded' bake loose.obj -o loose.lim
 works info loose.limn --json
 expect "welded control points" "$(json control_points)" 4
 works bake -q loose.obj -o loose.limn --repair=all
-refuses 1 'edge.obj: non-manifold edge' bake edge.obj -o new.limn --repair=weld,drop
-refuses 1 'degenerate.obj:6: degenerate' bake degenerate.obj -o new.limn --repair=split
+refuses 1 'edge.obj: non-manifold edge' bake edge.obj -o new.limn --repair
+refuses 2 'cannot repair' bake edge.obj -o new.limn --repair=split
 refuses 1 'range.obj:5: ' bake range.obj -o new.limn --repair
 printf "${four}f 1 2 2\n" >hopeless.obj
 refuses 1 'hopeless.obj: the mesh has no faces' bake -q hopeless.obj -o new.limn --repair
@@ -428,6 +428,21 @@ says stdout 'isolate=mixed bytes=[0-9]* isolated-bytes=[0-9]*$'
 notes 'torus32: not isolated: ' bake "$torus" -o alone.limn --isolate auto
 works info --json alone.limn
 expect "points of a mesh that is not isolated" "$(json points)" 16
+# ---- What is not a manifold
+
+notes 'edge.obj: split: 1 edges, sharp now, and 2 vertices, of which 2 are corners now; 4 control points added' \
+    bake edge.obj -o split.limn --non-manifold split
+works info split.limn --json
+expect "split control points" "$(json control_points)" 9
+notes 'split: 0 edges, sharp now, and 1 vertices, of which 1 are corners now; 1 control points' \
+    bake vertex.obj -o vertex.limn --non-manifold=split
+notes 'split: 1 edges' bake winding.obj -o winding.limn --non-manifold split
+refuses 1 'degenerate.obj:6: degenerate' bake degenerate.obj -o new.limn --non-manifold split
+refuses 1 'edge.obj: non-manifold edge' bake edge.obj -o new.limn --non-manifold refuse
+refuses 2 "cannot 'weld' what is not a manifold" bake edge.obj -o new.limn --non-manifold weld
+works bake -q "$torus" -o clean.limn --non-manifold split
+cmp -s clean.limn torus.limn || fail "splitting a manifold makes a difference"
+
 
 # ---- info
 
@@ -686,6 +701,36 @@ else
     verified several.limn --against "$torus" --mesh=3 --tolerance 1e-3
     verified loose.limn --against loose.obj --repair=weld
     refuses 1 'loose.obj: non-manifold vertex' verify loose.limn --against loose.obj
+    verified split.limn --against edge.obj --non-manifold split
+    verified vertex.limn --against vertex.obj --non-manifold split
+    verified winding.limn --against winding.obj --non-manifold split
+    # Three pages of a book, with creases that end at its spine.
+    awk '
+        BEGIN {
+            for (p = 0; p < 3; p++)
+                for (w = 0; w < 3; w++)
+                    for (v = 0; v < 6; v++)
+                        if (p == 0 || w > 0) {
+                            number[p, w, v] = ++count
+                            print "v", 0.1 * v * v + w * cos(2 * p + 0.1 * v), w * sin(2 * p + 0.1 * v), v + 0.1 * w * p
+                        } else number[p, w, v] = number[0, 0, v]
+            for (p = 0; p < 3; p++)
+                for (w = 0; w < 2; w++)
+                    for (v = 0; v < 5; v++)
+                        print "f", number[p, w, v], number[p, w + 1, v], number[p, w + 1, v + 1], number[p, w, v + 1]
+            print "t crease 2/1/0", number[1, 1, 2] - 1, number[1, 0, 2] - 1, 10
+            print "t crease 2/1/0", number[2, 1, 1] - 1, number[2, 1, 2] - 1, 1.5
+            print "t crease 2/1/0", number[2, 1, 4] - 1, number[2, 1, 3] - 1, 0.4
+            print "t corner 1/1/0", number[0, 0, 3] - 1, 2.3
+        }
+    ' >book.obj
+    for options in '' '--boundary edge-and-corner' '--boundary none' '--creasing chaikin'; do
+        # shellcheck disable=SC2086
+        works bake -q book.obj -o book.limn --non-manifold split $options
+        verified book.limn --against book.obj --non-manifold split
+    done
+    refuses 1 'edge.obj: non-manifold edge' verify split.limn --against edge.obj
+    refuses 2 'cannot .weld. what is not' verify split.limn --against edge.obj --non-manifold weld
     refuses 1 'baked from something else' verify torus.limn --against "$sail"
     refuses 1 'baked from something else' verify several.limn --against "$cube" --mesh 1
     awk '/^v / && !done { $2 += 0.001; done = 1 } { print }' "$torus" >moved.obj

@@ -53,7 +53,7 @@ bake_all() {
     for mesh in "$@"; do
         name=$(basename "$(dirname "$mesh")")-$(basename "$mesh")
         bake "$build" "plain-$name" "$mesh"
-        bake "$build" "mended-$name" --repair --weights warren --boundary edge-and-corner "$mesh"
+        bake "$build" "mended-$name" --repair --non-manifold split --weights warren --boundary edge-and-corner "$mesh"
     done
     for weights in loop warren; do
         bake "$build" "$weights-all" --weights $weights --normals exact "$source_folder"/assets/*.obj "$source_folder"/assets/*.off

@@ -250,7 +250,9 @@ static bool open_baked(limn_baker *baker, limn_mesh *mesh) {
 }
 
 static bool load(subject *s, const char *path) {
-    const limn_bake_desc desc = {.repair = LIMN_REPAIR_ALL, .boundary = LIMN_BOUNDARY_EDGE_ONLY};
+    const limn_bake_desc desc = {.repair = LIMN_REPAIR_ALL,
+                                 .non_manifold = LIMN_NON_MANIFOLD_SPLIT,
+                                 .boundary = LIMN_BOUNDARY_EDGE_ONLY};
     *s = (subject){.context = {.desc = desc}, .baker = limn_baker_create(&desc)};
     limni_source source = {0};
     if (limni_read_file(&s->context, path, &source) != LIMN_BAKE_OK ||

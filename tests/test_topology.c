@@ -93,10 +93,21 @@ typedef struct baked {
     notes notes;
 } baked;
 
-static void bake(baked *result, const surface *const *surfaces, size_t count, uint32_t repair) {
+/// What may be done to a mesh: LIMN_REPAIR_… and this bit.
+enum { SPLIT = 1 << 16 };
+
+static limn_bake_desc desc_for(uint32_t allowed) {
+    return (limn_bake_desc){.repair = allowed & LIMN_REPAIR_ALL,
+                            .non_manifold = allowed & SPLIT ? LIMN_NON_MANIFOLD_SPLIT
+                                                            : LIMN_NON_MANIFOLD_REFUSE};
+}
+
+static void bake(baked *result, const surface *const *surfaces, size_t count, uint32_t allowed) {
+    limn_bake_desc desc = desc_for(allowed);
     *result = (baked){0};
-    result->baker = limn_baker_create(
-        &(limn_bake_desc){.repair = repair, .note = take_note, .user = &result->notes});
+    desc.note = take_note;
+    desc.user = &result->notes;
+    result->baker = limn_baker_create(&desc);
     if (!result->baker) abort();
     for (size_t s = 0; s < count && result->status == LIMN_BAKE_OK; s++)
         result->status = limn_baker_add_mesh(
@@ -159,8 +170,8 @@ static void check_evaluation(const limn_mesh *mesh) {
 }
 
 /// Bakes one surface without mistakes; the caller looks at the result and then ends it.
-static limn_mesh check_accepted(baked *result, const surface *given, uint32_t repair) {
-    bake(result, &given, 1, repair);
+static limn_mesh check_accepted(baked *result, const surface *given, uint32_t allowed) {
+    bake(result, &given, 1, allowed);
     if (!CHECK_EQUAL(result->status, LIMN_BAKE_OK)) {
         fprintf(stderr, "    %s\n", limn_baker_error(result->baker));
         return (limn_mesh){0};
@@ -172,9 +183,9 @@ static limn_mesh check_accepted(baked *result, const surface *given, uint32_t re
     return mesh;
 }
 
-static void check_refused(const surface *given, uint32_t repair, const char *part) {
+static void check_refused(const surface *given, uint32_t allowed, const char *part) {
     baked result;
-    bake(&result, &given, 1, repair);
+    bake(&result, &given, 1, allowed);
     CHECK_EQUAL(result.status, LIMN_BAKE_BAD_INPUT);
     CHECK_CONTAINS(limn_baker_error(result.baker), part);
     limn_baker_destroy(result.baker);
@@ -327,10 +338,10 @@ static void test_shared_classes(void) {
 // ---- What is mended
 
 /// Counts after a repair, and what the notes must say.
-static void check_repaired(const surface *given, uint32_t repair, uint32_t control_count,
+static void check_repaired(const surface *given, uint32_t allowed, uint32_t control_count,
                            uint32_t patch_count, uint32_t boundary_patches, const char *note) {
     baked result;
-    const limn_mesh mesh = check_accepted(&result, given, repair);
+    const limn_mesh mesh = check_accepted(&result, given, allowed);
     CHECK_EQUAL(mesh.control_count, control_count);
     CHECK_EQUAL(mesh.patch_count, patch_count);
     CHECK_EQUAL(count_boundary_patches(&mesh), boundary_patches);
@@ -349,7 +360,7 @@ static void test_weld(void) {
     check_repaired(&loose, 0, 12, 4, 4, "");
     check_repaired(&loose, LIMN_REPAIR_WELD, 4, 4, 0,
                    "loose: repaired: 8 control points welded into others");
-    check_repaired(&loose, LIMN_REPAIR_DROP | LIMN_REPAIR_SPLIT, 12, 4, 4, "");
+    check_repaired(&loose, LIMN_REPAIR_DROP | SPLIT, 12, 4, 4, "");
 
     // Welding may leave a face with a corner twice.
     static const float flat_positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 1, 1, 0};
@@ -364,7 +375,7 @@ static void test_weld(void) {
 static void test_drop(void) {
     const surface given =
         TRIANGLES(4, 0, 1, 1, 0, 1, 2, 2, 2, 2, 1, 2, 0, 2, 1, 3, 3, 2, 1, 1, 3, 2);
-    check_refused(&given, LIMN_REPAIR_WELD | LIMN_REPAIR_SPLIT, "t: face 0: degenerate face");
+    check_refused(&given, LIMN_REPAIR_WELD | SPLIT, "t: face 0: degenerate face");
     check_repaired(&given, LIMN_REPAIR_DROP, 4, 2, 2,
                    "t: repaired: 2 degenerate and 3 repeated faces dropped");
 
@@ -386,18 +397,22 @@ static void test_repeated_corners(void) {
 
 static void test_split_open(void) {
     const surface bow_tie = TRIANGLES(5, 0, 1, 2, 0, 3, 4);
-    check_repaired(&bow_tie, LIMN_REPAIR_SPLIT, 6, 2, 2, "t: repaired: 1 control points added");
+    check_repaired(&bow_tie, SPLIT, 6, 2, 2,
+                   "t: split: 0 edges, sharp now, and 1 vertices, of which 1 are corners now; "
+                   "1 control points added");
 
     const surface book = TRIANGLES(5, 0, 1, 2, 1, 0, 3, 0, 1, 4);
-    check_repaired(&book, LIMN_REPAIR_SPLIT, 9, 3, 3, "t: repaired: 4 control points added");
+    check_repaired(&book, SPLIT, 9, 3, 3,
+                   "t: split: 1 edges, sharp now, and 2 vertices, of which 2 are corners now; "
+                   "4 control points added");
 
     const surface wound = TRIANGLES(4, 0, 1, 2, 0, 1, 3);
-    check_repaired(&wound, LIMN_REPAIR_SPLIT, 6, 2, 2, "t: repaired: 2 control points added");
+    check_repaired(&wound, SPLIT, 6, 2, 2, "2 control points added");
 
     // A Möbius strip of five triangles cannot be wound consistently.
     const surface strip = TRIANGLES(5, 0, 1, 2, 2, 1, 3, 2, 3, 4, 4, 3, 0, 4, 0, 1);
     check_refused(&strip, LIMN_REPAIR_WELD | LIMN_REPAIR_DROP, "t: inconsistent winding");
-    check_repaired(&strip, LIMN_REPAIR_SPLIT, 7, 5, 5, "t: repaired: 2 control points added");
+    check_repaired(&strip, SPLIT, 7, 5, 5, "2 control points added");
 }
 
 /// Cutting off what is too much leaves the rest closed.
@@ -410,18 +425,17 @@ static void test_split_closed(void) {
         memcpy(corners + 18, flaps[f], sizeof flaps[f]);
         const surface given = {"flap", points, 6, NULL, corners, 7};
         check_refused(&given, 0, "flap: non-manifold edge from vertex ");
-        check_repaired(&given, LIMN_REPAIR_SPLIT, 8, 7, 1,
-                       "flap: repaired: 2 control points added");
+        check_repaired(&given, SPLIT, 8, 7, 1, "flap: split: 1 edges, sharp now, and 2 vertices");
     }
     // Two tetrahedra with a common edge; two with a common vertex.
     const surface edge =
         TRIANGLES(6, 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3, 0, 5, 1, 0, 1, 4, 1, 5, 4, 5, 0, 4);
     check_refused(&edge, 0, ": 4 faces share it");
-    check_repaired(&edge, LIMN_REPAIR_SPLIT, 8, 8, 0, "t: repaired: 2 control points added");
+    check_repaired(&edge, SPLIT, 8, 8, 0, "2 control points added");
     const surface vertex =
         TRIANGLES(7, 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3, 0, 5, 4, 0, 4, 6, 4, 5, 6, 5, 0, 6);
     check_refused(&vertex, 0, "t: non-manifold vertex 0: face 0 and face 4 meet");
-    check_repaired(&vertex, LIMN_REPAIR_SPLIT, 8, 8, 0, "t: repaired: 1 control points added");
+    check_repaired(&vertex, SPLIT, 8, 8, 0, "1 control points added");
 }
 
 /// A control point made by splitting has no number and no line of its own in the file.
@@ -434,7 +448,7 @@ static void test_split_too_high_valence(void) {
     memcpy(corners, (const uint32_t[]){0, 3002, 3003}, 3 * sizeof *corners);
     memcpy(corners + 3, fan.corners, 3 * 3000 * sizeof *corners);
     const surface both = {"both", positions, 3004, NULL, corners, 3001};
-    check_refused(&both, LIMN_REPAIR_SPLIT, " has valence 3001: the corners of face 1");
+    check_refused(&both, SPLIT, " has valence 3001: the corners of face 1");
     free_surface(&both);
     free_surface(&fan);
 }
@@ -452,7 +466,7 @@ static void test_repair_anything(void) {
         const surface given = {"any", points, point_count, NULL, corners, face_count},
                       *any = &given;
         baked result;
-        bake(&result, &any, 1, LIMN_REPAIR_ALL);
+        bake(&result, &any, 1, LIMN_REPAIR_ALL | SPLIT);
         if (result.status == LIMN_BAKE_OK) {
             const limn_mesh mesh = limn_pack_mesh(&result.pack, 0);
             check_tables(&mesh);
@@ -699,12 +713,14 @@ static void *copy(limni_context *context, const void *bytes, size_t size) {
 }
 
 /// Creases: an edge inside, one of the boundary, a diagonal; and one again, turned round.
-static void begin_tagged(tagged *t, uint32_t repair) {
+static void begin_tagged(tagged *t, uint32_t allowed) {
     static const uint32_t offsets[] = {0, 4, 8, 12, 16, 20};
     *t = (tagged){.creases = {{5, 7, 1.5f, 11}, {0, 1, 3, 12}, {4, 7, 2, 13}, {7, 5, 2.5f, 14}},
                   .vertices = {{4, 1, 21}, {6, INFINITY, 22}, {4, 0.5f, 23}},
                   .holes = {{2, 31}, {2, 32}, {4, 33}}};
-    t->context.desc = (limn_bake_desc){.repair = repair, .note = append_note, .user = t};
+    t->context.desc = desc_for(allowed);
+    t->context.desc.note = append_note;
+    t->context.desc.user = t;
     t->source =
         (limni_source){.name = "cube",
                        .positions = copy(&t->context, cube_positions, sizeof cube_positions),
@@ -806,10 +822,10 @@ static void test_tags_follow_repairs(void) {
     limni_release_all(&t.context);
 }
 
-/// Where a mesh is split, both sides keep their tags.
+/// Where a mesh is split, all is sharp for ever; elsewhere tags stay.
 static void test_tags_follow_splits(void) {
     tagged t;
-    begin_tagged(&t, LIMN_REPAIR_SPLIT);
+    begin_tagged(&t, SPLIT);
     static const uint32_t fin[] = {5, 7, 2}; // a third face at edge 5-7
     uint32_t *const corners = limni_resize(&t.context, t.source.face_corners, 23, sizeof *corners);
     uint32_t *const offsets = limni_resize(&t.context, t.source.face_offsets, 7, sizeof *offsets);
@@ -818,17 +834,23 @@ static void test_tags_follow_splits(void) {
     t.source.face_corners = corners;
     t.source.face_offsets = offsets;
     t.source.face_count = 6;
-    t.vertices[0] = (limni_sharp_vertex){7, 2, 1};
     if (!build_tagged(&t)) return;
-    CHECK(sharpness_between(&t.mesh, 5, 7) == 2.5f);
-    CHECK_EQUAL(count_sharp(&t.mesh), 4); // three times 5-7, and 0-1
-    uint32_t copies = 0;
+    CHECK_EQUAL(t.mesh.control_count, 11);
     for (uint32_t c = 0; c < t.mesh.control_count; c++) {
-        if (memcmp(t.mesh.controls[c], cube_positions + 3 * 7, 12) != 0) continue;
-        CHECK(t.mesh.vertex_sharpness[c] == 2);
-        copies++;
+        const uint32_t origin = t.mesh.origins[c];
+        CHECK(memcmp(t.mesh.controls[c], cube_positions + 3 * origin, 12) == 0);
+        const bool split = origin == 2 || origin == 5 || origin == 7;
+        CHECK_EQUAL(limni_is_split(&t.mesh, c), split);
+        CHECK(t.mesh.vertex_sharpness[c] == (origin == 4            ? 0.5f
+                                             : split || origin == 6 ? INFINITY
+                                                                    : 0));
     }
-    CHECK(copies > 1);
+    uint32_t sharp_for_ever = 0;
+    for (uint32_t h = 0; h < 3 * t.mesh.face_count; h++)
+        sharp_for_ever += t.mesh.edge_sharpness[h] == INFINITY;
+    CHECK_EQUAL(sharp_for_ever, 3);       // 5-7 of both quads and the fin
+    CHECK_EQUAL(count_sharp(&t.mesh), 4); // and 0-1
+    CHECK_CONTAINS(t.notes, "cube: split: 1 edges, sharp now, and 3 vertices, of which 3 are");
     limni_release_all(&t.context);
 }
 

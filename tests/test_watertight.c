@@ -25,7 +25,8 @@ typedef struct subject {
     float *control_normals; ///< [normal_count][3]
 } subject;
 
-static unsigned long long total_vertices, total_meshes, refused_meshes, split_vertices;
+static unsigned long long total_vertices, total_meshes, refused_meshes, split_vertices,
+    sheet_vertices;
 
 static bool load(subject *s, const char *path, const limn_bake_desc *desc) {
     const void *blob;
@@ -105,6 +106,70 @@ static uint64_t count_differences(const subject *s, uint32_t level, const vertex
     return differences;
 }
 
+/// The sheets that meet in half-edges a and b: whether they have the same ends, and which way.
+typedef enum meeting { APART, ALONG, AGAINST } meeting;
+
+static meeting meet(const limni_mesh *mesh, uint32_t a, uint32_t b) {
+    const uint32_t *const origins = mesh->origins;
+    const uint32_t start = origins[limni_half_edge_start(mesh, a)],
+                   end = origins[limni_half_edge_end(mesh, a)];
+    const uint32_t other_start = origins[limni_half_edge_start(mesh, b)],
+                   other_end = origins[limni_half_edge_end(mesh, b)];
+    if (start == other_start && end == other_end) return ALONG;
+    return start == other_end && end == other_start ? AGAINST : APART;
+}
+
+/// How many vertices on edges where the mesh was split differ in position from those of other sheets.
+static uint64_t count_sheet_differences(const subject *s, uint32_t level, const vertex *vertices) {
+    const uint32_t row_count = s->baked.domain->row_counts[level];
+    uint32_t *const edges = malloc(3 * (size_t)s->mesh.face_count * sizeof *edges);
+    uint32_t count = 0;
+    uint64_t differences = 0;
+    for (uint32_t h = 0; h < 3 * s->mesh.face_count && s->mesh.origins; h++) {
+        if (s->patches[h / 3] != LIMNI_NONE &&
+            limni_is_split(&s->mesh, limni_half_edge_start(&s->mesh, h)) &&
+            limni_is_split(&s->mesh, limni_half_edge_end(&s->mesh, h)))
+            edges[count++] = h;
+    }
+    for (uint32_t e = 0; e < count; e++) {
+        for (uint32_t f = 0; f < e; f++) {
+            const meeting met = meet(&s->mesh, edges[e], edges[f]);
+            if (met == APART) continue;
+            const uint32_t a = s->patches[edges[e] / 3], b = s->patches[edges[f] / 3];
+            const uint16_t *const along = rows_along(s, edges[e]), *const other =
+                                                                       rows_along(s, edges[f]);
+            for (uint32_t t = 0; t <= LIMN_GRID_SIZE; t += LIMN_GRID_SIZE >> level) {
+                const uint32_t at = met == ALONG ? t : LIMN_GRID_SIZE - t;
+                differences +=
+                    memcmp(vertices[(size_t)a * row_count + along[t]],
+                           vertices[(size_t)b * row_count + other[at]], 3 * sizeof(float)) != 0;
+                sheet_vertices++;
+            }
+        }
+    }
+    free(edges);
+    return differences;
+}
+
+/// The same for the vertices themselves, where sheets may have no edge in common.
+static uint64_t count_corner_differences(const subject *s, uint32_t level, const vertex *vertices) {
+    const uint32_t row_count = s->baked.domain->row_counts[level];
+    if (!s->mesh.origins) return 0;
+    const uint32_t origin_count = s->mesh.origins[s->mesh.control_count - 1] + 1;
+    const vertex **const places = calloc(origin_count, sizeof *places);
+    uint64_t differences = 0;
+    for (uint32_t h = 0; h < 3 * s->mesh.face_count; h++) {
+        if (s->patches[h / 3] == LIMNI_NONE) continue;
+        const vertex *const here =
+            &vertices[(size_t)s->patches[h / 3] * row_count + rows_along(s, h)[0]];
+        const vertex **const place = &places[s->mesh.origins[limni_half_edge_start(&s->mesh, h)]];
+        if (!*place) *place = here;
+        differences += memcmp(here, *place, 3 * sizeof(float)) != 0;
+    }
+    free(places);
+    return differences;
+}
+
 static uint64_t evaluate_and_count(subject *s, const limn_kernels *kernels, uint32_t level,
                                    vertex *vertices) {
     s->baked.kernels = kernels;
@@ -115,7 +180,9 @@ static uint64_t evaluate_and_count(subject *s, const limn_kernels *kernels, uint
                                  .normals = &vertices[0][3],
                                  .normal_stride = sizeof(vertex),
                                  .control_normals = s->control_normals});
-    return count_differences(s, level, (const vertex *)vertices);
+    return count_differences(s, level, (const vertex *)vertices) +
+           count_sheet_differences(s, level, (const vertex *)vertices) +
+           count_corner_differences(s, level, (const vertex *)vertices);
 }
 
 /// Unit length everywhere; where the surface is degenerate, the fallback has it too.
@@ -210,6 +277,7 @@ static void check_file(const char *path, limn_bake_desc desc) {
         refused_meshes++;
         unload(&s);
         desc.repair = LIMN_REPAIR_ALL;
+        desc.non_manifold = LIMN_NON_MANIFOLD_SPLIT;
         loaded = load(&s, path, &desc);
     }
     if (CHECK(loaded)) {
@@ -302,6 +370,67 @@ static void test_tagged(bool chaikin) {
     visit(path);
     least_coefficient = -0x1p-26;
     CHECK(split_vertices > before);
+    remove(path);
+}
+
+/// All sheets have the error of the edge, and with it its level.
+static void check_errors(const subject *s) {
+    for (uint32_t a = 0; a < 3 * s->mesh.face_count && s->mesh.origins; a++) {
+        for (uint32_t b = 0; b < a; b++) {
+            const uint32_t p = s->patches[a / 3], q = s->patches[b / 3];
+            if (meet(&s->mesh, a, b) == APART || p == LIMNI_NONE || q == LIMNI_NONE) continue;
+            const uint32_t turn = limn_mesh_face(&s->baked, p).rotation,
+                           other_turn = limn_mesh_face(&s->baked, q).rotation;
+            CHECK_EQUAL(s->baked.errors[3 * p + (a % 3 + 3 - turn) % 3],
+                        s->baked.errors[3 * q + (b % 3 + 3 - other_turn) % 3]);
+        }
+    }
+}
+
+/// Four pages of a grid around a spine, which bends, and so numbered that copies behind all others
+/// would be in another order on some pages; and a loose face at one corner.
+static void test_book(void) {
+    enum { PAGES = 4, LENGTH = 6, WIDTH = 3 };
+    static const char path[] = "test_watertight_book.obj";
+    FILE *const file = fopen(path, "w");
+    if (!CHECK(file)) return;
+    for (int v = 0; v < LENGTH; v++) // the spine is 1, 2, ...
+        fprintf(file, "v %.6f %.6f %.6f\n", 0.1 * v * v, 0.37 * v, sin(v));
+    for (int p = 0; p < PAGES; p++) {
+        for (int v = 0; v < LENGTH * WIDTH; v++) {
+            const double angle = 1.7 * p + 0.1 * (v % LENGTH), out = 1 + v / LENGTH;
+            const int along = v % LENGTH;
+            fprintf(file, "v %.6f %.6f %.6f\n", 0.1 * along * along + out * cos(angle),
+                    0.37 * along + 0.05 * out * p, sin(along) + out * sin(angle));
+        }
+    }
+    for (int p = 0; p < PAGES; p++) {
+        const int page = 1 + LENGTH + p * LENGTH * WIDTH;
+        for (int w = 0; w < WIDTH; w++) {
+            const int inner = w == 0 ? 1 : page + (w - 1) * LENGTH, outer = page + w * LENGTH;
+            for (int v = 0; v + 1 < LENGTH; v++) {
+                const int first = p % 2 ? inner + v : outer + v,
+                          second = p % 2 ? outer + v : inner + v;
+                fprintf(file, "f %d %d %d\nf %d %d %d\n", first, first + 1, second, first + 1,
+                        second + 1, second);
+            }
+        }
+    }
+    fprintf(file, "v 9 9 9\nv 9 9 8\nf %d -1 -2\n", 1 + LENGTH + LENGTH * WIDTH - 1);
+    // Creases of one page that end at the spine, and a corner of it.
+    fprintf(file, "t crease 2/1/0 2 %d 1.5\nt crease 2/1/0 3 %d 10\nt corner 1/1/0 4 0.7\n",
+            LENGTH + 2, LENGTH + LENGTH * WIDTH + 3);
+    const int closed_file = fclose(file);
+    CHECK(closed_file == 0);
+    const unsigned long long before = sheet_vertices;
+    visit(path);
+    CHECK(sheet_vertices > before);
+    subject s;
+    const limn_bake_desc desc = {.repair = LIMN_REPAIR_ALL,
+                                 .non_manifold = LIMN_NON_MANIFOLD_SPLIT,
+                                 .normals = LIMN_NORMALS_EXACT};
+    if (CHECK(load(&s, path, &desc))) check_errors(&s);
+    unload(&s);
     remove(path);
 }
 
@@ -415,9 +544,10 @@ int main(void) {
     char path[4096];
     CHECK(mesh_files_visit(visit) > 0);
     printf("%llu bakes (%llu of them repaired), %llu shared vertices compared, %llu of them on "
-           "creases without their normals\n",
-           total_meshes, refused_meshes, total_vertices, split_vertices);
+           "creases without their normals, and %llu pairs of vertices of sheets\n",
+           total_meshes, refused_meshes, total_vertices, split_vertices, sheet_vertices);
     test_flat();
+    test_book();
     test_tagged(false);
     test_tagged(true);
     static const uint32_t valences[] = {3, 7, 20, 26, 64, 255, 300, 500};

@@ -43,7 +43,8 @@ static bool copy_mesh(peer_scene *scene, const void *blob, size_t blob_size) {
 }
 
 static bool read_mesh(peer_scene *scene, const char *path) {
-    limn_baker *const baker = limn_baker_create(&(limn_bake_desc){.repair = LIMN_REPAIR_ALL});
+    limn_baker *const baker = limn_baker_create(
+        &(limn_bake_desc){.repair = LIMN_REPAIR_ALL, .non_manifold = LIMN_NON_MANIFOLD_SPLIT});
     if (!baker) return false;
     const void *blob;
     size_t blob_size;

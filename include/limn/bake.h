@@ -80,10 +80,17 @@ typedef enum limn_isolate {
 typedef enum limn_repair {
     LIMN_REPAIR_WELD = 1 << 0, ///< merge control points whose positions are equal
     LIMN_REPAIR_DROP = 1 << 1, ///< drop faces that use a control point twice or repeat another face
-    LIMN_REPAIR_SPLIT =
-        1 << 2, ///< cut the mesh open at non-manifold or inconsistently wound edges and vertices
-    LIMN_REPAIR_ALL = 7
+    LIMN_REPAIR_ALL = 3
 } limn_repair;
+
+/// What happens where faces do not form a surface: at edges that more than two faces share or two
+/// run along in the same direction, and at vertices around which faces are not one chain.
+typedef enum limn_non_manifold {
+    LIMN_NON_MANIFOLD_REFUSE, ///< an error that names the edge or vertex
+    LIMN_NON_MANIFOLD_SPLIT   ///< as OpenSubdiv does, these edges are sharp and these vertices are
+                              ///< corners. Each sheet there gets control points of its own, which
+                              ///< come side by side and must be moved together; later ones move up
+} limn_non_manifold;
 
 /// A notice: triangulated polygons, unused control points, repairs. `text` is valid during the
 /// call.
@@ -101,7 +108,8 @@ typedef struct limn_bake_desc {
     limn_creasing creasing;
     limn_normals normals;
     limn_isolate isolate;
-    uint32_t repair; ///< LIMN_REPAIR_… bits; 0: refuse what is not a clean manifold
+    uint32_t repair; ///< LIMN_REPAIR_… bits; 0: refuse bad faces
+    limn_non_manifold non_manifold;
     limn_bake_note_fn *note;
     limn_bake_progress_fn *progress;
     void *user; ///< passed to the callbacks

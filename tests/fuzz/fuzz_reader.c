@@ -54,8 +54,10 @@ static void build(limni_context *context, limni_source *source) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
     size_t note_size = 0;
-    limni_context context = {
-        .desc = {.repair = LIMN_REPAIR_ALL, .note = ignore_note, .user = &note_size}};
+    limni_context context = {.desc = {.repair = LIMN_REPAIR_ALL,
+                                      .non_manifold = LIMN_NON_MANIFOLD_SPLIT,
+                                      .note = ignore_note,
+                                      .user = &note_size}};
     limni_source source = {.name = "fuzz", .path = FUZZ_PATH};
     char *const text = malloc(size + 1); // exactly as large, for the address sanitizer
     FUZZ_REQUIRE(text);

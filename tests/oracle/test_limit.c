@@ -55,7 +55,9 @@ static void visit(const char *path) {
                                    .normals = LIMN_NORMALS_EXACT};
     const limn_bake_desc corners = {.boundary = LIMN_BOUNDARY_EDGE_AND_CORNER,
                                     .normals = LIMN_NORMALS_EXACT};
-    const limn_bake_desc repaired = {.repair = LIMN_REPAIR_ALL, .normals = LIMN_NORMALS_EXACT};
+    const limn_bake_desc repaired = {.repair = LIMN_REPAIR_ALL,
+                                     .non_manifold = LIMN_NON_MANIFOLD_SPLIT,
+                                     .normals = LIMN_NORMALS_EXACT};
     if (compare(path, &strict)) {
         if (strstr(path, "opensubdiv_shapes") || strstr(path, "sail")) compare(path, &corners);
     } else {
