@@ -497,8 +497,8 @@ static void build_imp(mesh *m) {
 
 /* ---- the torus, the sail and the cut cube ---- */
 
-/* 4 x 4 quads, all cut the same way: every point has valence 6. Quarter turns need no sine. */
-static void build_torus(mesh *m) {
+/* 4 x 4 quads. Quarter turns need no sine. */
+static void add_torus_points(mesh *m) {
     static const double cosine[4] = {1.0, 0.0, -1.0, 0.0};
     static const double sine[4] = {0.0, 1.0, 0.0, -1.0};
     const double ring_radius = 1.0, tube_radius = 0.5;
@@ -508,14 +508,29 @@ static void build_torus(mesh *m) {
             add_point(m, (point){radius * cosine[i], tube_radius * sine[j], radius * sine[i]});
         }
     }
+}
+
+static void build_torus_of(mesh *m, bool alternating) {
+    add_torus_points(m);
     for (int i = 0; i < 4; ++i) {
         for (int j = 0; j < 4; ++j) {
             const int a = 4 * i + j, b = 4 * i + (j + 1) % 4;
             const int c = 4 * ((i + 1) % 4) + (j + 1) % 4, d = 4 * ((i + 1) % 4) + j;
-            add_triangle(m, a, b, c);
-            add_triangle(m, a, c, d);
+            const bool other = alternating && (i + j) % 2 == 1;
+            add_triangle(m, a, b, other ? d : c);
+            add_triangle(m, other ? b : a, c, d);
         }
     }
+}
+
+/* All quads cut the same way: every point has valence 6. */
+static void build_torus(mesh *m) {
+    build_torus_of(m, false);
+}
+
+/* Neighbours cut the other way: half of the points have valence 4, half 8. */
+static void build_alternating_torus(mesh *m) {
+    build_torus_of(m, true);
 }
 
 enum { sail_columns = 6, sail_rows = 8 };
@@ -755,6 +770,7 @@ int main(int argc, char **argv) {
     static const recipe recipes[] = {
         {"imp.obj", build_imp, 0, 2},
         {"torus32.obj", build_torus, 0, 0},
+        {"torus32_alternating.obj", build_alternating_torus, 0, 0},
         {"sail.obj", build_sail, 2, 0},
         {"cube.off", build_cube, 0, 2},
     };

@@ -19,6 +19,7 @@ int bench_dolly(int argc, char **argv);
 int bench_kernels(int argc, char **argv);
 int bench_peers(int argc, char **argv);
 int bench_plan(int argc, char **argv);
+int bench_weights(int argc, char **argv);
 
 /// Seconds of a clock that only goes forward.
 double bench_seconds(void);

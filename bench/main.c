@@ -19,6 +19,7 @@ static const struct {
      "time per face beside OpenSubdiv, recursive subdivision and dense skinning"},
     {"plan", bench_plan,
      "time to plan a frame beside that to evaluate it; mixed levels; two threads"},
+    {"weights", bench_weights, "Loop's weights beside Warren's: shape, curvature and tables"},
 };
 
 enum { BENCH_COUNT = sizeof benches / sizeof *benches };

@@ -89,6 +89,9 @@ expect_picture wireframe 160 120 --wireframe --level 2
 expect_picture control_mesh 160 120 --control-mesh
 expect_picture everything 161 97 --wireframe --control-mesh --level 1 --mesh 0
 expect_picture tall 60 240
+expect_picture flat 160 120 --shade flat --level 1
+expect_picture smooth 160 120 --shade smooth --level 1
+expect_different flat smooth
 eye="--eye 0.5,1.8,2 --target 0,1.6,0 --tolerance 60"
 draw levels $eye --size 160x120 --colour levels --wireframe
 draw frame_lines $eye --size 160x120 --wireframe
@@ -141,6 +144,7 @@ for mesh in -1 x 0x "" 4294967296; do
 done
 
 expect_error 2 "$file" --png "$out" --colour red
+expect_error 2 "$file" --png "$out" --shade round
 expect_error 2 "$file" --png "$out" --overview
 expect_error 2 "$file" --png "$out" --lod length
 expect_error 2 "$file" --png "$out" --eye 1,2

@@ -24,6 +24,7 @@ static const char help_text[] =
     "      --colour WHAT       clay (default), or levels: of each patch the highest of its edges;\n"
     "                          0 blue, 1 light blue, 2 green, 3 yellow, 4 orange, and in between\n"
     "                          while morphing\n"
+    "      --shade HOW         smooth (default), or flat: each triangle by its own normal\n"
     "      --wireframe         draw triangles, and the borders of patches stronger\n"
     "      --control-mesh      draw the edges and points of the base mesh, faintly where hidden\n"
     "      --mesh N            draw mesh N of the file only, counted from 0; default all meshes\n"
@@ -62,10 +63,17 @@ static bool parse_colour(view_picture *picture, const char *text) {
            view_fail("--colour '%s': not clay or levels", text);
 }
 
+static bool parse_shade(view_picture *picture, const char *text) {
+    picture->flat_shading = strcmp(text, "flat") == 0;
+    return picture->flat_shading || strcmp(text, "smooth") == 0 ||
+           view_fail("--shade '%s': not smooth or flat", text);
+}
+
 enum option_key {
     KEY_PNG = 1,
     KEY_SIZE,
     KEY_COLOUR,
+    KEY_SHADE,
     KEY_WIREFRAME,
     KEY_CONTROL,
     KEY_MESH,
@@ -78,6 +86,7 @@ static const struct option long_options[] = {
     {"png", required_argument, NULL, KEY_PNG},
     {"size", required_argument, NULL, KEY_SIZE},
     {"colour", required_argument, NULL, KEY_COLOUR},
+    {"shade", required_argument, NULL, KEY_SHADE},
     {"wireframe", no_argument, NULL, KEY_WIREFRAME},
     {"control-mesh", no_argument, NULL, KEY_CONTROL},
     {"mesh", required_argument, NULL, KEY_MESH},
@@ -97,6 +106,8 @@ static bool apply_option(view_picture *picture, int key) {
         return parse_size(picture, optarg);
     case KEY_COLOUR:
         return parse_colour(picture, optarg);
+    case KEY_SHADE:
+        return parse_shade(picture, optarg);
     case KEY_WIREFRAME:
         return picture->wireframe = true;
     case KEY_CONTROL:

@@ -20,6 +20,7 @@ static bool draw(const view_gl *gl, const view_scene *scene, const view_picture 
         .height = target->height,
         .pixel_scale = (float)target->pixel_scale * line_scale(picture),
         .level_colours = picture->level_colours,
+        .flat_shading = picture->flat_shading,
         .wireframe = picture->wireframe,
         .control_mesh = picture->control_mesh,
     };

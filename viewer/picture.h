@@ -12,6 +12,7 @@ typedef struct view_picture {
     uint32_t width, height;
     long mesh_index; ///< or VIEW_ALL_MESHES
     bool level_colours;
+    bool flat_shading;
     bool wireframe;
     bool control_mesh;
     bool overview; ///< not from the eye of the frame

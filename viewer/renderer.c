@@ -185,6 +185,7 @@ static void use_program(const view_gl *gl, GLuint program, const view_frame *fra
                   (float)frame->height);
     gl->Uniform1f(gl->GetUniformLocation(program, "pixel_scale"), frame->pixel_scale);
     gl->Uniform1f(gl->GetUniformLocation(program, "level_colours"), frame->level_colours);
+    gl->Uniform1f(gl->GetUniformLocation(program, "flat_shading"), frame->flat_shading);
 }
 
 static void draw_background(const view_renderer *renderer, const view_frame *frame) {

@@ -86,7 +86,7 @@ static const char wireframe_geometry_source[] =
 static const char surface_fragment_source[] =
     "in Surface { vec3 position, normal; float level; } surface;\n"
     "out vec4 color;\n"
-    "uniform float level_colours;\n"
+    "uniform float level_colours, flat_shading;\n"
     "const vec3 clay = vec3(0.40, 0.345, 0.295);\n"
     "const vec3 palette[5] = vec3[5](vec3(0.000, 0.168, 0.445), vec3(0.093, 0.456, 0.815),\n"
     "                                vec3(0.000, 0.342, 0.171), vec3(0.871, 0.776, 0.054),\n"
@@ -130,6 +130,10 @@ static const char surface_fragment_source[] =
     "void main() {\n"
     "    vec3 eye = normalize(-surface.position);\n"
     "    vec3 normal = surface.normal / max(length(surface.normal), 1e-6);\n"
+    "    if (flat_shading > 0.0) {\n" // of the triangle; it faces the viewer
+    "        normal = normalize(cross(dFdx(surface.position), dFdy(surface.position)));\n"
+    "        if (!gl_FrontFacing) normal = -normal;\n"
+    "    }\n"
     "    vec3 albedo = mix(clay, level_colour(surface.level), level_colours);\n"
     "    if (!gl_FrontFacing) {\n" // the inside of an open mesh
     "        normal = -normal;\n"
