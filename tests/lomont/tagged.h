@@ -4,7 +4,7 @@
 #define TAGGED_H
 
 #include "lomont.h"
-#include "random_mesh.h"
+#include "../random_mesh.h"
 
 /// A mesh with its tags. Free it with lomont_destroy().
 static inline lomont_mesh lomont_from_random(const random_mesh *random) {
