@@ -384,8 +384,8 @@ static void add_both(butterfly_mask *mask, int a, int b, double weight) {
     add(mask, b, weight);
 }
 
-/// With f for the far weight and q for the wing's: the eigenvector of the matrix of the vertex, two
-/// neighbours on the boundary each way, the four vertices of the next row and three of the one behind.
+/// Of the vertex, two neighbours on the boundary each way, the four vertices of the next row and
+/// three of the one behind it, with f for the far weight and q for the wing's.
 static void fill_regular_across(const butterfly_mesh *mesh, const vertex_star *star,
                                 butterfly_mask *across) {
     const double f = weights_of(mesh).far, q = weights_of(mesh).wing;

@@ -182,7 +182,7 @@ static double weight_of(const butterfly_mask *mask, int vertex) {
     return sum;
 }
 
-/// From the middle of a fan, once subdivided: a mask with weights at the ring, from the edge's end on.
+/// The mask of the edge to neighbour `spoke` of the middle of a fan, once subdivided.
 static void check_fan_mask(uint32_t count, bool closed, int spoke, double centre,
                            const double *weights) {
     butterfly_mesh base = fan(count, closed), mesh = butterfly_subdivide(&base);
@@ -215,6 +215,52 @@ static void test_extraordinary_weights(void) {
     check_fan_mask(5, false, 1, 3 / 4. - half / 4,
                    (double[]){half / 8, 1 / 4., half / 4, 0, -half / 8});
     check_fan_mask(5, false, 2, 3 / 4. - half / 2, (double[]){0, half / 4, 1 / 4., half / 4, 0});
+}
+
+/// Whether a vertex is another or its neighbour.
+static bool is_near(const butterfly_mesh *mesh, int vertex, int other) {
+    for (int h = 0; h < 3 * mesh->face_count; h++) {
+        if (start(mesh, h) == vertex && end(mesh, h) == other) return true;
+        if (end(mesh, h) == vertex && start(mesh, h) == other) return true;
+    }
+    return vertex == other;
+}
+
+/// Of an inner edge, nothing comes from a regular end, and half from each extraordinary one of two.
+static void check_shares(const butterfly_mesh *mesh, int h) {
+    const int a = start(mesh, h), b = end(mesh, h);
+    const double share = is_regular(mesh, a) ? 0 : is_regular(mesh, b) ? 1 : 1 / 2.;
+    const butterfly_mask mask = butterfly_edge_mask(mesh, h);
+    double sum = 0;
+    for (int v = 0; v < mesh->vertex_count; v++) {
+        const double weight = weight_of(&mask, v);
+        if (share == 0 && !is_near(mesh, v, b)) CHECK(weight == 0);
+        if (share == 1 && !is_near(mesh, v, a)) CHECK(weight == 0);
+        sum += weight;
+    }
+    CHECK_NEAR(sum, 1, 1e-14);
+    const int n = butterfly_valence(mesh, a), m = butterfly_valence(mesh, b);
+    if (share != 1 / 2. || butterfly_is_on_boundary(mesh, a) || n < 5) return;
+    if (butterfly_is_on_boundary(mesh, b) || m < 5) return;
+    CHECK_NEAR(weight_of(&mask, a), (3 / 4. + 7 / (4. * m)) / 2, 1e-14);
+}
+
+static void test_extraordinary_ends(void) {
+    int seen[3][3] = {{0}}; // by how many ends are on a boundary, how many are extraordinary
+    for (uint64_t seed = 0; seed < SEED_COUNT; seed++) {
+        butterfly_mesh mesh = random_butterfly(seed);
+        for (int h = 0; h < 3 * mesh.face_count; h++) {
+            const int a = start(&mesh, h), b = end(&mesh, h);
+            const int extraordinary_count = !is_regular(&mesh, a) + !is_regular(&mesh, b);
+            if (mesh.pairs[h] == -1) continue;
+            if (extraordinary_count > 0) check_shares(&mesh, h);
+            seen[butterfly_is_on_boundary(&mesh, a) + butterfly_is_on_boundary(&mesh, b)]
+                [extraordinary_count]++;
+        }
+        butterfly_destroy(&mesh);
+    }
+    for (int kind = 0; kind < 9; kind++)
+        CHECK(seen[kind / 3][kind % 3] > 0);
 }
 
 /// Weights of the edge between two vertices of the lattice, at (x, y) from the first.
@@ -512,8 +558,8 @@ static int *measure_distances(const butterfly_mesh *mesh, int vertex, int limit)
     return distances;
 }
 
-/// The faces around all vertices up to `radius` edges from a vertex, which comes first. Edges between
-/// such vertices do not feel the cut; so this is a part of the next level's mesh, too.
+/// The faces around all vertices up to `radius` edges from a vertex, which comes first. Edges
+/// between such vertices do not feel the cut, and so the same part of the next level does not.
 static butterfly_mesh zoom(const butterfly_mesh *mesh, int vertex, int radius) {
     int *const distances = measure_distances(mesh, vertex, radius + 1);
     int *const indices = calloc((size_t)mesh->vertex_count, sizeof(int)); // 1 more
@@ -602,9 +648,9 @@ static double measure_turn(const butterfly_mesh *part) {
 
 static double largest_deviation, largest_final_turn;
 
-/// A long way down: distances along the surface halve and 1/2 is the largest eigenvalue, since those off
-/// the tangent plane fall as with 1/4, though with a Jordan block; the normal is that of the faces, and
-/// normals around come together.
+/// A long way down, distances along the surface halve, and those off the tangent plane fall as with
+/// 1/4, if with a Jordan block; so 1/2 is the largest eigenvalue. The normal is that of the faces,
+/// and normals around come together.
 static void look_closer(const butterfly_mesh *mesh, int v, const double *normal) {
     enum { LEVEL_COUNT = 14, RADIUS = 3 };
     butterfly_mesh part = zoom(mesh, v, RADIUS);
@@ -707,6 +753,7 @@ static void test_support(void) {
 int main(void) {
     test_levels();
     test_extraordinary_weights();
+    test_extraordinary_ends();
     test_regular_weights();
     test_strip();
     test_affine_invariance();
