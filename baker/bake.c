@@ -62,7 +62,8 @@ static limni_rules rules_for(const limni_rules *options, const limni_mesh *mesh)
     limni_rules rules = *options;
     if (rules.boundary == LIMN_BOUNDARY_DEFAULT) rules.boundary = mesh->boundary;
     if (rules.boundary == LIMN_BOUNDARY_DEFAULT) rules.boundary = LIMN_BOUNDARY_EDGE_ONLY;
-    if (rules.creasing == LIMN_CREASING_DEFAULT) rules.creasing = mesh->creasing;
+    const bool lomont = rules.creases == LIMN_CREASES_LOMONT; // whose sharpness falls by 1
+    if (rules.creasing == LIMN_CREASING_DEFAULT && !lomont) rules.creasing = mesh->creasing;
     if (rules.creasing == LIMN_CREASING_DEFAULT) rules.creasing = LIMN_CREASING_UNIFORM;
     return rules;
 }
@@ -71,13 +72,25 @@ static const char *place_of(const limni_mesh *mesh) {
     return mesh->path ? mesh->path : mesh->name;
 }
 
+/// Says where a mesh was made for other rules.
+static void note_rules(limni_context *context, const limni_rules *rules, bool is_lomont,
+                       const limni_mesh *mesh) {
+    const bool lomont = rules->creases == LIMN_CREASES_LOMONT;
+    if (is_lomont && !lomont && (limni_has_sharpness(mesh) || limni_has_boundary(mesh)))
+        limni_note(context,
+                   "%s: a mesh of Lomont's with OpenSubdiv's creases and boundaries; his are "
+                   "--creases lomont",
+                   place_of(mesh));
+    if (lomont && mesh->creasing == LIMN_CREASING_CHAIKIN && limni_has_sharpness(mesh))
+        limni_note(context, "%s: Chaikin's creasing is ignored: Lomont has none", place_of(mesh));
+}
+
 /// What the rules make of the mesh before it is classified.
 static limn_bake_status apply_rules(limni_context *context, const limni_rules *rules,
                                     limni_mesh *mesh) {
-    if (rules->creases == LIMN_CREASES_LOMONT && limni_has_sharpness(mesh))
+    if (rules->creases == LIMN_CREASES_LOMONT && rules->creasing == LIMN_CREASING_CHAIKIN)
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                          "%s: the mesh has sharp features, and Lomont's rules for them are not "
-                          "supported yet",
+                          "%s: Chaikin's creasing goes with OpenSubdiv's creases, not Lomont's",
                           place_of(mesh));
     if (rules->boundary == LIMN_BOUNDARY_NONE) limni_mesh_open_boundary(mesh);
     if (mesh->hole_count == mesh->face_count)
@@ -140,6 +153,7 @@ static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     LIMNI_TRY(limni_mesh_build(context, source, &mesh));
     limni_rules rules = rules_for(&baker->rules, &mesh);
     LIMNI_TRY(apply_rules(context, &rules, &mesh));
+    note_rules(context, &rules, source->tags.is_lomont, &mesh);
     limni_footprint footprints[2] = {0};
     LIMNI_TRY(settle_isolation(context, &mesh, &rules, footprints));
     limni_patches *const patches = &baker->meshes[baker->mesh_count];

@@ -91,19 +91,20 @@ static uint32_t slot_of(limni_classifier *classifier, limni_local_base *base, ui
 /// at the boundary.
 static void walk_ring(limni_classifier *classifier, limni_local_base *base, uint32_t half_edge,
                       limni_star *star) {
-    limni_mesh_star(classifier->mesh, classifier->sharpness, classifier->rules, half_edge, star);
+    limni_mesh_star(classifier->mesh, classifier->sharpness, half_edge, star);
     for (uint32_t r = 0; r < star->count; r++)
         star->ring[r] = slot_of(classifier, base, star->ring[r]);
 }
 
-/// Whether an edge is sharp that is not on the boundary.
-static bool has_creases(const limni_neighbourhood *neighbourhood) {
+/// Whether an edge is sharp, other than on a boundary whose ends are all alike to the rules.
+static bool has_creases(const limni_rules *rules, const limni_neighbourhood *neighbourhood) {
+    const bool boundaries = rules->creases == LIMN_CREASES_LOMONT;
     bool any = false;
     for (int corner = 0; corner < 3; corner++) {
         const limni_star *const star = &neighbourhood->corners[corner];
         for (uint32_t r = 0; star->edges && r < star->count; r++) {
             const bool inside = limni_star_has_left(star, r) && limni_star_has_right(star, r);
-            any |= inside && star->edges[r] > 0;
+            any |= (inside || boundaries) && star->edges[r] > 0;
         }
     }
     return any;
@@ -120,7 +121,7 @@ static void walk_rings(limni_classifier *classifier, limni_local_base *base, uin
         walk_ring(classifier, base, 3 * face + (corner + base->rotation) % 3, star);
         first += star->count;
     }
-    if (has_creases(neighbourhood)) return;
+    if (has_creases(classifier->rules, neighbourhood)) return;
     for (uint32_t corner = 0; corner < 3; corner++)
         neighbourhood->corners[corner].edges = neighbourhood->corners[corner].beyond = NULL;
 }
@@ -129,7 +130,7 @@ enum { KEY_RULE = 1, KEY_CREASES = 3, KEY_CHAIKIN = 4, KEY_TWINS = 5 }; // bits
 
 /// What there is at a corner, without the sharpness.
 static uint32_t key_flags(const limni_star *star, const limni_rules *rules, bool tagged) {
-    const limni_vertex_rule rule = limni_star_feature(star).rule;
+    const limni_vertex_rule rule = limni_star_feature(rules, star).rule;
     const bool chaikin = rules->creasing == LIMN_CREASING_CHAIKIN;
     return (uint32_t)star->closed | (uint32_t)rule << KEY_RULE | (uint32_t)tagged << KEY_CREASES |
            (uint32_t)(tagged && chaikin) << KEY_CHAIKIN;

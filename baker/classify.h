@@ -22,9 +22,10 @@
 /// The surroundings of one face in one mesh.
 typedef struct limni_local_base {
     limni_neighbourhood neighbourhood;
-    limni_sharpness *edges, *beyond; ///< what the neighbourhood has if there are sharp edges
-    uint32_t rotation;  ///< corner c of the patch is corner (c + rotation) mod 3 of the face
-    uint32_t *controls; ///< [control_count] control points by slot
+    limni_sharpness *edges; ///< what the neighbourhood has if there are sharp edges
+    uint32_t *beyond;       ///< likewise
+    uint32_t rotation;      ///< corner c of the patch is corner (c + rotation) mod 3 of the face
+    uint32_t *controls;     ///< [control_count] control points by slot
     uint32_t *twins; ///< [control_count] the first slot that was the same control point before the
                      ///< mesh was split
     uint32_t twin_count; ///< slots that are not the first

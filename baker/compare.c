@@ -95,7 +95,7 @@ static limn_bake_status find_comparable(limni_context *context, const limni_mesh
         limni_star star = {
             .ring = room, .edges = room + valence_max, .beyond = room + 2 * (size_t)valence_max};
         if (source->first[c] == LIMNI_NONE || limni_is_split(source, c)) continue;
-        limni_mesh_star(source, &sharpness, &rules, source->first[c], &star);
+        limni_mesh_star(source, &sharpness, source->first[c], &star);
         (*comparable)[c] = has_comparable_normals(&star, how->creasing != LIMN_CREASING_CHAIKIN);
     }
     limni_release(context, room);
@@ -120,10 +120,11 @@ static limn_bake_status read_subject(limni_context *context, const char *path, s
 static limn_bake_status oracle(limni_context *context, const limn_pack *pack, const subject *s,
                                bool with_normals, answer *given) {
     const limni_mesh *const source = &s->whole;
-    char scheme[32], weights[32], boundary[32], creasing[32], error[512];
+    char scheme[32], weights[32], boundary[32], creases[32], creasing[32], error[512];
     limni_info_value(pack->info, "scheme", scheme, sizeof scheme);
     limni_info_value(pack->info, "weights", weights, sizeof weights);
     limni_info_value(pack->info, "boundary", boundary, sizeof boundary);
+    limni_info_value(pack->info, "creases", creases, sizeof creases);
     limni_info_value(pack->info, "creasing", creasing, sizeof creasing);
     if (strcmp(scheme, "loop") != 0)
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
@@ -133,6 +134,12 @@ static limn_bake_status oracle(limni_context *context, const limn_pack *pack, co
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
                           "the file was baked with %s weights, which OpenSubdiv does not have",
                           weights);
+    if (strcmp(creases, "lomont") == 0 &&
+        (limni_has_sharpness(&s->built) || limni_has_boundary(&s->built)))
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                          "%s: the mesh was baked with Lomont's rules for creases and boundaries, "
+                          "which OpenSubdiv does not have",
+                          source->path);
     const limni_opensubdiv_mesh mesh = {
         .positions = source->controls[0],
         .faces = source->faces[0],

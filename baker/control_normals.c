@@ -17,8 +17,9 @@ typedef struct builder {
     uint32_t *first_weights; ///< [rules][valence_max + 1] masks where no edge is sharp but the
                              ///< boundary; LIMNI_NONE where there is none yet
     uint32_t valence_max;
-    limni_sharpness *edges, *beyond; ///< [valence_max] of a star
-    limni_fixed *along, *across;     ///< [valence_max + 1]
+    limni_sharpness *edges;      ///< [valence_max] of a star
+    uint32_t *beyond;            ///< likewise
+    limni_fixed *along, *across; ///< [valence_max + 1]
 } builder;
 
 enum { RULE_COUNT = 3 };
@@ -120,8 +121,8 @@ static void set_corners(const builder *b, uint32_t control, const limni_star *st
 // ---- Control points
 
 /// Whether no edge is sharp but the boundary, nor the vertex beyond what valence decides.
-static bool is_plain(const limni_star *star, const limni_feature *last) {
-    if (limni_star_decays(star) || count_sides(star, last) > 1) return false;
+static bool is_plain(const limni_rules *rules, const limni_star *star, const limni_feature *last) {
+    if (!limni_star_is_settled(rules, star) || count_sides(star, last) > 1) return false;
     return last->rule != LIMNI_VERTEX_DART;
 }
 
@@ -131,7 +132,7 @@ static limn_bake_status write_sides(builder *b, uint32_t control, const limni_st
     limn_file_normal record = {.first_ring = (uint32_t)b->normals->ring_size,
                                .ring_count = star->count};
     uint32_t scratch = LIMNI_NONE;
-    uint32_t *const first = is_plain(star, &last)
+    uint32_t *const first = is_plain(b->rules, star, &last)
                                 ? &b->first_weights[last.rule * (b->valence_max + 1) + star->count]
                                 : &scratch;
     if (*first == LIMNI_NONE) {
@@ -157,7 +158,7 @@ static limn_bake_status write_normal(builder *b, uint32_t control) {
     }
     limni_star star = {
         .ring = normals->ring + normals->ring_size, .edges = b->edges, .beyond = b->beyond};
-    limni_mesh_star(b->mesh, b->sharpness, b->rules, b->mesh->first[control], &star);
+    limni_mesh_star(b->mesh, b->sharpness, b->mesh->first[control], &star);
     LIMNI_TRY(write_sides(b, control, &star));
     normals->ring_size += star.count;
     return LIMN_BAKE_OK;

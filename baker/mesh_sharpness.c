@@ -13,6 +13,13 @@ bool limni_has_sharpness(const limni_mesh *mesh) {
            any_above_zero(mesh->vertex_sharpness, mesh->control_count);
 }
 
+bool limni_has_boundary(const limni_mesh *mesh) {
+    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
+        if (mesh->pairs[h] == LIMNI_NONE) return true;
+    }
+    return false;
+}
+
 /// Whether a boundary edge at the control point is not sharp by a tag.
 static bool has_open_boundary(const limni_mesh *mesh, uint32_t control) {
     const uint32_t first = mesh->first[control];
@@ -60,22 +67,61 @@ static bool is_flat(const limni_rules *rules) {
     return rules->scheme == LIMN_SCHEME_NONE;
 }
 
+/// Whether an edge is sharp, by its tag or to Lomont's rules as a boundary.
+static bool has_sharp_edges(const limni_mesh *mesh, const limni_rules *rules) {
+    return is_flat(rules) || (rules->creases == LIMN_CREASES_LOMONT && limni_has_boundary(mesh)) ||
+           any_above_zero(mesh->edge_sharpness, 3 * (size_t)mesh->face_count);
+}
+
 static limn_bake_status convert_edges(limni_context *context, const limni_mesh *mesh,
                                       const limni_rules *rules, limni_mesh_sharpness *sharpness) {
     const size_t count = 3 * (size_t)mesh->face_count;
-    if (!is_flat(rules) && !any_above_zero(mesh->edge_sharpness, count)) return LIMN_BAKE_OK;
     sharpness->edges = limni_allocate(context, count, sizeof *sharpness->edges);
-    sharpness->around =
-        limni_allocate_zeroed(context, mesh->control_count, sizeof *sharpness->around);
-    if (!sharpness->edges || !sharpness->around) return LIMN_BAKE_MEMORY;
+    if (!sharpness->edges) return LIMN_BAKE_MEMORY;
     for (uint32_t h = 0; h < count; h++) {
         const bool forever = mesh->pairs[h] == LIMNI_NONE || is_flat(rules);
         const limni_sharpness s = limni_sharpness_from_float(mesh->edge_sharpness[h]);
         sharpness->edges[h] = forever ? LIMNI_SHARPNESS_INFINITE : s;
-        if (forever) continue;
-        // The other end is counted from the other side.
-        limni_sharp_edges_add(&sharpness->around[limni_half_edge_start(mesh, h)], s);
     }
+    return LIMN_BAKE_OK;
+}
+
+/// Writes what the neighbours of a control point have to know of it to the edges around it.
+static void tell_neighbours(const limni_mesh *mesh, uint32_t control, const uint32_t *seen,
+                            limni_mesh_sharpness *sharpness) {
+    const uint32_t first = mesh->first[control];
+    uint32_t h = first, last = first;
+    do {
+        const uint32_t pair = mesh->pairs[h];
+        sharpness->seen[h][0] = *seen;
+        if (pair != LIMNI_NONE) sharpness->seen[pair][1] = *seen;
+        seen++;
+        last = h;
+        h = limni_half_edge_turn(mesh, h);
+    } while (h != first && h != LIMNI_NONE);
+    if (h == LIMNI_NONE) sharpness->seen[limni_half_edge_previous(last)][1] = *seen;
+}
+
+limn_bake_status limni_mesh_sharpness_see(limni_context *context, const limni_mesh *mesh,
+                                          const limni_rules *rules,
+                                          limni_mesh_sharpness *sharpness) {
+    size_t valence_max = 0;
+    for (uint32_t c = 0; c < mesh->control_count; c++)
+        valence_max = mesh->valences[c] > valence_max ? mesh->valences[c] : valence_max;
+    sharpness->seen =
+        limni_allocate_zeroed(context, 3 * (size_t)mesh->face_count, sizeof *sharpness->seen);
+    uint32_t *const room = limni_allocate(context, 4 * valence_max, sizeof *room);
+    if (!sharpness->seen || !room) return LIMN_BAKE_MEMORY;
+    uint32_t *const seen = room + 3 * valence_max;
+    for (uint32_t c = 0; c < mesh->control_count; c++) {
+        limni_star star = {
+            .ring = room, .edges = room + valence_max, .beyond = room + 2 * valence_max};
+        if (mesh->first[c] == LIMNI_NONE) continue;
+        limni_mesh_star(mesh, sharpness, mesh->first[c], &star);
+        limni_star_see(rules, &star, 0, star.count, seen);
+        tell_neighbours(mesh, c, seen, sharpness);
+    }
+    limni_release(context, room);
     return LIMN_BAKE_OK;
 }
 
@@ -98,29 +144,30 @@ limn_bake_status limni_mesh_sharpness_begin(limni_context *context, const limni_
                                      ? LIMNI_SHARPNESS_INFINITE
                                      : limni_sharpness_from_float(tag);
     }
-    return convert_edges(context, mesh, rules, sharpness);
+    if (!has_sharp_edges(mesh, rules)) return LIMN_BAKE_OK;
+    LIMNI_TRY(convert_edges(context, mesh, rules, sharpness));
+    return limni_mesh_sharpness_see(context, mesh, rules, sharpness);
 }
 
 void limni_mesh_sharpness_end(limni_context *context, limni_mesh_sharpness *sharpness) {
     limni_release(context, sharpness->edges);
     limni_release(context, sharpness->vertices);
-    limni_release(context, sharpness->around);
+    limni_release(context, sharpness->seen);
 }
 
-/// Adds the neighbour at the far end of half-edge h, which starts or ends at the star's vertex.
-static void add_neighbour(const limni_mesh_sharpness *sharpness, const limni_rules *rules,
-                          uint32_t h, uint32_t neighbour, limni_star *star) {
+/// Adds the neighbour at one end of half-edge h, 0: its start, the other being the star's vertex.
+static void add_neighbour(const limni_mesh *mesh, const limni_mesh_sharpness *sharpness, uint32_t h,
+                          int end, limni_star *star) {
     if (star->edges) {
-        const limni_sharpness s = sharpness->edges[h];
-        star->edges[star->count] = s;
-        star->beyond[star->count] =
-            limni_edge_sharpness_next(rules->creasing, s, sharpness->around[neighbour]);
+        star->edges[star->count] = sharpness->edges[h];
+        star->beyond[star->count] = sharpness->seen[h][end];
     }
-    star->ring[star->count++] = neighbour;
+    star->ring[star->count++] =
+        end == 0 ? limni_half_edge_start(mesh, h) : limni_half_edge_end(mesh, h);
 }
 
-void limni_mesh_star(const limni_mesh *mesh, const limni_mesh_sharpness *sharpness,
-                     const limni_rules *rules, uint32_t h, limni_star *star) {
+void limni_mesh_star(const limni_mesh *mesh, const limni_mesh_sharpness *sharpness, uint32_t h,
+                     limni_star *star) {
     const uint32_t control = limni_half_edge_start(mesh, h);
     star->closed = !limni_is_boundary(mesh, control);
     star->count = 0;
@@ -129,11 +176,11 @@ void limni_mesh_star(const limni_mesh *mesh, const limni_mesh_sharpness *sharpne
     const uint32_t start = star->closed ? h : mesh->first[control];
     uint32_t turning = start, last;
     do {
-        add_neighbour(sharpness, rules, turning, limni_half_edge_end(mesh, turning), star);
+        add_neighbour(mesh, sharpness, turning, 1, star);
         last = turning;
         turning = limni_half_edge_turn(mesh, turning);
     } while (turning != start && turning != LIMNI_NONE);
     if (star->closed) return;
     const uint32_t incoming = limni_half_edge_previous(last);
-    add_neighbour(sharpness, rules, incoming, limni_half_edge_start(mesh, incoming), star);
+    add_neighbour(mesh, sharpness, incoming, 0, star);
 }

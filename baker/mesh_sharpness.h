@@ -8,13 +8,16 @@
 
 typedef struct limni_mesh_sharpness {
     limni_sharpness *edges;    ///< [3 * face_count] by half-edge, infinite on the boundary; NULL:
-                               ///< no edge is sharp but the boundary
+                               ///< none is sharp, but a boundary if the rules need not see its ends
+    uint32_t (*seen)[2];       ///< [3 * face_count] what there is to know at the start and at the
+                               ///< end of each half-edge; NULL with `edges`
     limni_sharpness *vertices; ///< [control_count]
-    limni_sharp_edges *around; ///< [control_count] the semi-sharp edges; NULL with `edges`
 } limni_mesh_sharpness;
 
 /// Whether any tag says so.
 bool limni_has_sharpness(const limni_mesh *mesh);
+
+bool limni_has_boundary(const limni_mesh *mesh);
 
 /// LIMN_BOUNDARY_NONE: makes holes of the faces around boundary vertices, except where all boundary
 /// edges are tagged as infinitely sharp.
@@ -23,6 +26,12 @@ void limni_mesh_open_boundary(limni_mesh *mesh);
 limn_bake_status limni_mesh_sharpness_begin(limni_context *context, const limni_mesh *mesh,
                                             const limni_rules *rules,
                                             limni_mesh_sharpness *sharpness);
+
+/// Fills in `seen` from the edges and the vertices, where there are edges.
+limn_bake_status limni_mesh_sharpness_see(limni_context *context, const limni_mesh *mesh,
+                                          const limni_rules *rules,
+                                          limni_mesh_sharpness *sharpness);
+
 void limni_mesh_sharpness_end(limni_context *context, limni_mesh_sharpness *sharpness);
 
 /// Whether the surface may have two normals along the half-edge and its pair.
@@ -35,9 +44,9 @@ static inline bool limni_is_crease(const limni_mesh_sharpness *sharpness, const 
 /// The star of a control point that faces use, in control points: counter-clockwise from half-edge
 /// `h`, which starts there, or from the boundary.
 ///
-/// star  ring, edges and beyond have room for its valence; edges and beyond are used if the mesh
-///       has sharp edges, and may be NULL if it has none
-void limni_mesh_star(const limni_mesh *mesh, const limni_mesh_sharpness *sharpness,
-                     const limni_rules *rules, uint32_t h, limni_star *star);
+/// star  ring, edges and beyond have room for its valence; edges and beyond become NULL where
+///       sharpness->edges is
+void limni_mesh_star(const limni_mesh *mesh, const limni_mesh_sharpness *sharpness, uint32_t h,
+                     limni_star *star);
 
 #endif

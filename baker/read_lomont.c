@@ -332,6 +332,7 @@ limn_bake_status limni_read_lomont(limni_context *context, const char *text, siz
                           source->path);
     lomont_reader reader = {.builder = limni_builder_begin(context, source)};
     source->index_base = 1;
+    source->tags.is_lomont = true;
     LIMNI_TRY(limni_scanner_open(&reader.scanner, context, source->path, text, size));
     const limn_bake_status status = read_all(&reader, text);
     limni_scanner_close(&reader.scanner);

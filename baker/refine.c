@@ -14,9 +14,11 @@ typedef struct refiner {
     limni_keyed_edge *edges; ///< [edge_count] in the order of their points
     uint32_t edge_count, point_count;
     limni_refined *made;
-    limni_star star;       ///< of one control point
-    limni_fixed *weights;  ///< [1 + widest]
-    uint32_t *ring_points; ///< [widest] the point on the edge to each ring vertex
+    uint32_t widest;      ///< valence
+    limni_star star;      ///< of one control point, in `room`
+    uint32_t *room;       ///< [3][widest]
+    uint32_t *ring_edges; ///< [widest] a half-edge to each ring vertex
+    limni_fixed *weights; ///< [1 + widest]
     uint32_t term_count;
 } refiner;
 
@@ -121,39 +123,67 @@ static void find_first(const refiner *r) {
     }
 }
 
-// ---- Sharpness
+// ---- Stars
 
-/// The other end is counted from the other side.
-static void sharpen_half(const refiner *r, uint32_t half, uint32_t start, limni_sharpness s) {
-    limni_mesh_sharpness *const made = &r->made->sharpness;
-    made->edges[half] = s;
-    if (r->made->mesh.pairs[half] != LIMNI_NONE) limni_sharp_edges_add(&made->around[start], s);
+/// The star of a control point, with the half-edges and the points to its ring.
+static void look_around(refiner *r, uint32_t control) {
+    const limni_mesh *const mesh = r->mesh;
+    uint32_t h = mesh->first[control];
+    limni_star *const star = &r->star;
+    *star = (limni_star){.ring = r->room, .edges = r->room + r->widest};
+    star->beyond = star->edges + r->widest;
+    limni_mesh_star(mesh, r->sharpness, h, star);
+    for (uint32_t k = 0; k < star->count; k++) {
+        r->ring_edges[k] = h;
+        const uint32_t previous = limni_half_edge_previous(h);
+        // Beyond the last face of an open star there is the edge that comes in.
+        h = mesh->pairs[previous] == LIMNI_NONE ? previous : mesh->pairs[previous];
+    }
 }
 
-/// Halves of an edge have what is left at its ends.
-static limn_bake_status sharpen(const refiner *r) {
+static limn_bake_status begin_stars(refiner *r) {
+    for (uint32_t c = 0; c < r->mesh->control_count; c++)
+        r->widest = r->mesh->valences[c] > r->widest ? r->mesh->valences[c] : r->widest;
+    r->room = limni_allocate(r->context, 3 * (size_t)r->widest, sizeof *r->room);
+    r->ring_edges = limni_allocate(r->context, r->widest, sizeof *r->ring_edges);
+    r->weights = limni_allocate(r->context, 1 + (size_t)r->widest, sizeof *r->weights);
+    return r->room && r->ring_edges && r->weights ? LIMN_BAKE_OK : LIMN_BAKE_MEMORY;
+}
+
+// ---- Sharpness
+
+/// The half of a half-edge that is next to a control point, which it leaves or leads to.
+static uint32_t half_at(const refiner *r, uint32_t h, uint32_t control) {
+    return limni_half_edge_start(r->mesh, h) == control ? first_half(h) : second_half(h);
+}
+
+/// Halves of edges have what is left at their ends.
+static void sharpen_edges(refiner *r, uint32_t control) {
+    limni_sharpness *const edges = r->made->sharpness.edges;
+    look_around(r, control);
+    for (uint32_t k = 0; k < r->star.count; k++) {
+        const uint32_t half = half_at(r, r->ring_edges[k], control);
+        const uint32_t pair = r->made->mesh.pairs[half];
+        edges[half] = limni_star_next_edge(r->rules, &r->star, k);
+        if (pair != LIMNI_NONE) edges[pair] = edges[half];
+    }
+}
+
+static limn_bake_status sharpen(refiner *r) {
     const limni_mesh *const mesh = r->mesh;
-    const limni_mesh_sharpness *const old = r->sharpness;
-    const limn_creasing creasing = r->rules->creasing;
     limni_mesh_sharpness *const made = &r->made->sharpness;
-    const uint32_t point_count = r->made->mesh.control_count;
-    made->vertices = limni_allocate_zeroed(r->context, point_count, sizeof *made->vertices);
+    made->vertices = limni_allocate_zeroed(r->context, r->point_count, sizeof *made->vertices);
     if (!made->vertices) return LIMN_BAKE_MEMORY;
     for (uint32_t c = 0; c < mesh->control_count; c++)
-        made->vertices[c] = limni_sharpness_next(old->vertices[c]);
-    if (!old->edges) return LIMN_BAKE_OK;
+        made->vertices[c] = limni_sharpness_next(r->sharpness->vertices[c]);
+    if (!r->sharpness->edges) return LIMN_BAKE_OK;
     made->edges =
         limni_allocate_zeroed(r->context, 12 * (size_t)mesh->face_count, sizeof *made->edges);
-    made->around = limni_allocate_zeroed(r->context, point_count, sizeof *made->around);
-    if (!made->edges || !made->around) return LIMN_BAKE_MEMORY;
-    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
-        const uint32_t a = limni_half_edge_start(mesh, h), b = limni_half_edge_end(mesh, h);
-        sharpen_half(r, first_half(h), a,
-                     limni_edge_sharpness_next(creasing, old->edges[h], old->around[a]));
-        sharpen_half(r, second_half(h), r->points[h],
-                     limni_edge_sharpness_next(creasing, old->edges[h], old->around[b]));
+    if (!made->edges) return LIMN_BAKE_MEMORY;
+    for (uint32_t c = 0; c < mesh->control_count; c++) {
+        if (mesh->first[c] != LIMNI_NONE) sharpen_edges(r, c);
     }
-    return LIMN_BAKE_OK;
+    return limni_mesh_sharpness_see(r->context, &r->made->mesh, r->rules, made);
 }
 
 // ---- Stencils
@@ -162,19 +192,6 @@ static void add_term(refiner *r, uint32_t control, limni_fixed weight) {
     if (weight == 0) return;
     r->made->terms[r->term_count++] =
         (limn_file_term){.control = control, .weight = limni_fixed_to_float(weight)};
-}
-
-/// The star of a control point, and the points on its edges.
-static void look_around(refiner *r, uint32_t control) {
-    const limni_mesh *const mesh = r->mesh;
-    uint32_t h = mesh->first[control];
-    limni_mesh_star(mesh, r->sharpness, r->rules, h, &r->star);
-    for (uint32_t k = 0; k < r->star.count; k++) {
-        r->ring_points[k] = r->points[h];
-        const uint32_t previous = limni_half_edge_previous(h);
-        // Beyond the last face of an open star there is the edge that comes in.
-        h = mesh->pairs[previous] == LIMNI_NONE ? previous : mesh->pairs[previous];
-    }
 }
 
 /// By ascending control points: so sheets, whose rings start anywhere, add theirs in the same order.
@@ -204,10 +221,10 @@ static void add_vertex_stencil(refiner *r, uint32_t control) {
 /// Of the edge from a control point to ring vertex k of its star.
 static void add_edge_stencil(refiner *r, uint32_t control, uint32_t k) {
     const limni_star *const star = &r->star;
-    const limni_edge_mask mask =
-        limni_loop_edge_mask(limni_star_edge_weight(r->rules->creasing, star, k));
-    add_term(r, control, mask.end);
-    add_term(r, star->ring[k], mask.end);
+    const limni_edge_feature feature = limni_star_edge_feature(r->rules, star, k);
+    const limni_edge_mask mask = limni_loop_edge_mask(&feature);
+    add_term(r, control, mask.ends[0]);
+    add_term(r, star->ring[k], mask.ends[1]);
     add_term(r, star->ring[limni_star_left(star, k)], mask.opposite);
     add_term(r, star->ring[limni_star_right(star, k)], mask.opposite);
 }
@@ -219,7 +236,7 @@ static void add_edge_stencils(refiner *r) {
         const uint32_t start = limni_half_edge_start(mesh, r->edges[e].half_edge);
         look_around(r, start);
         uint32_t k = 0;
-        while (r->ring_points[k] != point)
+        while (r->points[r->ring_edges[k]] != point)
             k++;
         r->made->stencils[point] = r->term_count;
         add_edge_stencil(r, start, k);
@@ -230,22 +247,12 @@ static void add_edge_stencils(refiner *r) {
 static limn_bake_status make_stencils(refiner *r) {
     const limni_mesh *const mesh = r->mesh;
     const uint32_t point_count = r->made->mesh.control_count;
-    uint64_t room = 4 * (uint64_t)(point_count - mesh->control_count);
-    uint32_t widest = 0;
-    for (uint32_t c = 0; c < mesh->control_count; c++) {
-        widest = mesh->valences[c] > widest ? mesh->valences[c] : widest;
+    uint64_t room = 4 * (uint64_t)r->edge_count;
+    for (uint32_t c = 0; c < mesh->control_count; c++)
         room += 1 + (uint64_t)mesh->valences[c];
-    }
-    r->star.ring = limni_allocate(r->context, widest, sizeof *r->star.ring);
-    r->star.edges = limni_allocate(r->context, widest, sizeof *r->star.edges);
-    r->star.beyond = limni_allocate(r->context, widest, sizeof *r->star.beyond);
-    r->ring_points = limni_allocate(r->context, widest, sizeof *r->ring_points);
-    r->weights = limni_allocate(r->context, 1 + (size_t)widest, sizeof *r->weights);
     r->made->stencils = limni_allocate(r->context, 1 + (size_t)point_count, sizeof(uint32_t));
     r->made->terms = limni_allocate(r->context, (size_t)room, sizeof *r->made->terms);
-    if (!r->star.ring || !r->star.edges || !r->star.beyond || !r->ring_points || !r->weights ||
-        !r->made->stencils || !r->made->terms)
-        return LIMN_BAKE_MEMORY;
+    if (!r->made->stencils || !r->made->terms) return LIMN_BAKE_MEMORY;
     for (uint32_t c = 0; c < mesh->control_count; c++) {
         r->made->stencils[c] = r->term_count;
         add_vertex_stencil(r, c);
@@ -298,14 +305,13 @@ limn_bake_status limni_refine(limni_context *context, const limni_mesh *mesh,
     for (uint32_t face = 0; face < mesh->face_count; face++)
         split_face(&r, face);
     find_first(&r);
+    LIMNI_TRY(begin_stars(&r));
     LIMNI_TRY(sharpen(&r));
     LIMNI_TRY(make_stencils(&r));
     limni_release(context, r.points);
     limni_release(context, r.edges);
-    limni_release(context, r.star.ring);
-    limni_release(context, r.star.edges);
-    limni_release(context, r.star.beyond);
-    limni_release(context, r.ring_points);
+    limni_release(context, r.room);
+    limni_release(context, r.ring_edges);
     limni_release(context, r.weights);
     return LIMN_BAKE_OK;
 }

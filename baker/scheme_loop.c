@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Loop subdivision (Loop 1987) with Loop's or Warren's weights, and cubic B-spline creases and
- * boundaries (Hoppe et al. 1994, with OpenSubdiv's rules at the ends of creases).
+ * boundaries (Hoppe et al. 1994, or without his rules for vertices that are not regular).
  * docs/design.md compares the formulas in print; several do not sum to 1.
  */
 #include "scheme.h"
@@ -67,9 +67,15 @@ static void fill_mask(const limni_transition *transition, ring_weights given, ui
 
 void limni_loop_vertex_mask(const limni_rules *rules, const limni_star *star,
                             limni_fixed *weights) {
-    const limni_transition transition = limni_star_transition(rules->creasing, star);
+    const limni_transition transition = limni_star_transition(rules, star);
     const ring_weights given = {ring_weight(rules, star->count), limni_fixed_ratio(1, 8)};
     fill_mask(&transition, given, star->count, weights);
+}
+
+/// Whether a crease is a cubic B-spline where it passes through a vertex: after Lomont, who has
+/// Hoppe's rules, only if the vertex is regular.
+static bool is_spline(const limni_rules *rules, const limni_feature *feature) {
+    return rules->creases != LIMN_CREASES_LOMONT || feature->regular;
 }
 
 /// Powers of (5 - sqrt(21)) / 2, the smaller root of q^2 - 5 q + 1 = 0.
@@ -81,8 +87,8 @@ static limni_fixed dart_power(uint32_t exponent) {
     return power;
 }
 
-/// Where a crease ends for ever. Its edge has the mask of a crease, so the smooth limit is not the
-/// limit: that is the left eigenvector for the eigenvalue 1. With the vertex's weight 1, neighbour j
+/// Where a crease ends for ever. Its edge has the mask of a crease (but after Lomont), so the smooth
+/// limit is not the limit: that is the left eigenvector for the eigenvalue 1. With the vertex's weight 1, neighbour j
 /// from the crease on has 8 w z(j), where 5 z(j) - z(j - 1) - z(j + 1) = 1 between z(0) = z(n) = 0,
 /// which z(j) = (1 - (q^j + q^(n - j)) / (1 + q^n)) / 3 solves; and the crease 2 w (1 + 2 z(1)).
 static void fill_dart_limit(const limni_rules *rules, const limni_star *star, uint32_t crease,
@@ -104,9 +110,12 @@ static void fill_dart_limit(const limni_rules *rules, const limni_star *star, ui
 }
 
 void limni_loop_limit_mask(const limni_rules *rules, const limni_star *star, limni_fixed *weights) {
-    const limni_transition forever = {.now = limni_star_feature(star), .weight = LIMNI_FIXED_ONE};
-    const ring_weights given = {limit_ring_weight(rules, star->count), limni_fixed_ratio(1, 6)};
-    if (forever.now.rule == LIMNI_VERTEX_DART) {
+    const limni_transition forever = {.now = limni_star_feature(rules, star),
+                                      .weight = LIMNI_FIXED_ONE};
+    const bool spline = is_spline(rules, &forever.now);
+    const ring_weights given = {limit_ring_weight(rules, star->count),
+                                limni_fixed_ratio(1, spline ? 6 : 5)};
+    if (forever.now.rule == LIMNI_VERTEX_DART && rules->creases != LIMN_CREASES_LOMONT) {
         fill_dart_limit(rules, star, forever.now.ends[0], weights);
         return;
     }
@@ -149,9 +158,8 @@ static limni_fixed *in_sector(const limni_star *star, sector s, uint32_t k, limn
 /// subdivision matrix that is symmetric and sin(k z), z = pi / (n - 1), on the inner neighbours k.
 /// Its eigenvalue is 3/8 + cos(z) / 4; the weights of the ends and of the vertex solve the two
 /// equations that are left. For n = 3 and 4 these are the masks (-1; 0 1 0) and (-2; -1 2 2 -1).
-/// The mask in print for n >= 5 (Hoppe, Lomont) belongs to Hoppe's boundary rules and not to the
-/// cubic B-spline's. All times sin(z), so that no term is large.
-static void crease_tangent(const limni_star *star, sector s, limni_fixed *across) {
+/// All times sin(z), so that no term is large.
+static void spline_tangent(const limni_star *star, sector s, limni_fixed *across) {
     const limni_fixed one = LIMNI_FIXED_ONE;
     const uint32_t n = s.count;
     if (n == 2) { // no inner neighbours: eigenvalue 1/4
@@ -177,46 +185,86 @@ static void crease_tangent(const limni_star *star, sector s, limni_fixed *across
             limni_fixed_multiply(z.sine, limni_fixed_turn(k, 2 * (n - 1)).sine);
 }
 
-/// The tangents of the face that starts at ring vertex `first` are its edges. With a smooth edge
-/// between two faces, they are the sharp ones on both sides of it: the eigenvalue of what it has
-/// apart from them is 3/8 against their 1/2. Between more faces there is no tangent plane in the
-/// limit, as what the smooth edges have in common outlasts the sharp ones.
-static void corner_tangents(const limni_star *star, uint32_t first, limni_fixed *along,
-                            limni_fixed *across) {
-    uint32_t right = first, left = limni_star_left(star, first);
+/// The same with Hoppe's rules, for n >= 4: -sin z at the ends and (2 - 2 cos z) sin(k z) inside,
+/// divided by sin z. The eigenvalue is the same.
+static void hoppe_tangent(const limni_star *star, sector s, limni_fixed *across) {
+    const uint32_t n = s.count;
+    const limni_fixed_unit z = limni_fixed_turn(1, 2 * (n - 1));
+    const limni_fixed scale = 2 * limni_fixed_divide(z.sine, LIMNI_FIXED_ONE + z.cosine);
+    *in_sector(star, s, 0, across) = *in_sector(star, s, n - 1, across) = -LIMNI_FIXED_ONE;
+    for (uint32_t k = 1; k < n - 1; k++)
+        *in_sector(star, s, k, across) =
+            limni_fixed_multiply(scale, limni_fixed_turn(k, 2 * (n - 1)).sine);
+}
+
+/// The part of a corner that a face's normal is that of: the face alone, which starts at ring vertex
+/// `first`; or with a smooth edge between two faces both. The tangents are then the sharp edges on
+/// both sides of it: the eigenvalue of what it has apart from them is 3/8 against their 1/2. Between
+/// more faces there is no tangent plane in the limit, as what the smooth edges have in common outlasts
+/// the sharp ones.
+static sector corner_side(const limni_star *star, uint32_t first) {
+    const uint32_t right = first, left = limni_star_left(star, first);
     const uint32_t beyond = limni_star_left(star, left), before = limni_star_right(star, right);
     const bool right_sharp = limni_star_edge(star, right) > 0;
     const bool left_sharp = limni_star_edge(star, left) > 0;
     if (right_sharp && !left_sharp && beyond != right && limni_star_edge(star, beyond) > 0)
-        left = beyond;
+        return (sector){right, 3};
     if (left_sharp && !right_sharp && before != left && limni_star_edge(star, before) > 0)
-        right = before;
-    along[0] = across[0] = -LIMNI_FIXED_ONE;
-    along[1 + right] = across[1 + left] = LIMNI_FIXED_ONE;
+        return (sector){before, 3};
+    return (sector){right, 2};
 }
 
-void limni_loop_tangent_masks(const limni_star *star, uint32_t half_steps, limni_fixed *along,
-                              limni_fixed *across) {
-    const limni_vertex_rule rule = limni_star_feature(star).rule;
-    if (rule == LIMNI_VERTEX_SMOOTH || rule == LIMNI_VERTEX_DART) {
+/// After Lomont all faces between two sharp edges have the normal of these, whose eigenvalue of 5/8
+/// no smooth edge exceeds. With fewer sharp edges each face has its own.
+static sector lomont_corner_side(const limni_star *star, uint32_t first) {
+    uint32_t sharp_count = 0;
+    for (uint32_t r = 0; r < star->count; r++)
+        sharp_count += limni_star_edge(star, r) > 0;
+    sector side = {.first = first, .count = 2};
+    if (sharp_count < 2) return side;
+    for (; limni_star_edge(star, side.first) == 0; side.count++)
+        side.first = limni_star_right(star, side.first);
+    while (limni_star_edge(star, (side.first + side.count - 1) % star->count) == 0)
+        side.count++;
+    return side;
+}
+
+/// The tangents are the edges on both sides.
+static void corner_tangents(const limni_star *star, sector s, limni_fixed *along,
+                            limni_fixed *across) {
+    along[0] = across[0] = -LIMNI_FIXED_ONE;
+    *in_sector(star, s, 0, along) = *in_sector(star, s, s.count - 1, across) = LIMNI_FIXED_ONE;
+}
+
+void limni_loop_tangent_masks(const limni_rules *rules, const limni_star *star, uint32_t half_steps,
+                              limni_fixed *along, limni_fixed *across) {
+    const limni_feature feature = limni_star_feature(rules, star);
+    if (feature.rule == LIMNI_VERTEX_SMOOTH || feature.rule == LIMNI_VERTEX_DART) {
         smooth_tangents(star, half_steps, along, across);
         return;
     }
     for (uint32_t w = 0; w <= star->count; w++)
         along[w] = across[w] = 0;
     const uint32_t first = half_steps / 2;
-    if (rule == LIMNI_VERTEX_CORNER) {
-        corner_tangents(star, first, along, across);
-    } else {
-        const sector side = crease_side(star, first);
-        along[1 + first] = LIMNI_FIXED_ONE;
-        *in_sector(star, side, side.count - 1, along) = -LIMNI_FIXED_ONE;
-        crease_tangent(star, side, across);
+    if (feature.rule == LIMNI_VERTEX_CORNER) {
+        const bool lomont = rules->creases == LIMN_CREASES_LOMONT;
+        corner_tangents(star, lomont ? lomont_corner_side(star, first) : corner_side(star, first),
+                        along, across);
+        return;
     }
+    const sector side = crease_side(star, first);
+    along[1 + first] = LIMNI_FIXED_ONE;
+    *in_sector(star, side, side.count - 1, along) = -LIMNI_FIXED_ONE;
+    if (side.count < 4 || is_spline(rules, &feature))
+        spline_tangent(star, side, across);
+    else
+        hoppe_tangent(star, side, across);
 }
 
-limni_edge_mask limni_loop_edge_mask(limni_fixed sharp) {
-    // Between 3/8 and 1/8, and 1/2 and 0; in sharpness, eighths are exact.
-    return (limni_edge_mask){.end = 3 * (LIMNI_FIXED_ONE / 8) + sharp / 8,
-                             .opposite = (LIMNI_FIXED_ONE - sharp) / 8};
+limni_edge_mask limni_loop_edge_mask(const limni_edge_feature *feature) {
+    // A smooth edge has 3/8 and 1/8; in sharpness, eighths are exact.
+    const limni_fixed eighth = feature->weight / 8;
+    return (limni_edge_mask){.ends = {3 * (LIMNI_FIXED_ONE / 8) + (feature->ends[0] - 3) * eighth,
+                                      3 * (LIMNI_FIXED_ONE / 8) + (feature->ends[1] - 3) * eighth},
+                             .opposite = (LIMNI_FIXED_ONE - feature->weight) / 8};
 }

@@ -36,6 +36,7 @@ typedef struct limni_tags {
     uint32_t crease_count, sharp_vertex_count, hole_count;
     limn_boundary boundary; ///< LIMN_BOUNDARY_DEFAULT: nothing is said
     limn_creasing creasing; ///< LIMN_CREASING_DEFAULT: nothing is said
+    bool is_lomont;         ///< whether the format is Lomont's, and tags meant for his rules
 } limni_tags;
 
 typedef struct limni_source {

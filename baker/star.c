@@ -1,6 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* OpenSubdiv's rules for creases: which masks a vertex and an edge take, and how much of each. */
 #include "star.h"
+
+#include "crease_rules.h"
+
+static const limni_crease_rules *creases_of(const limni_rules *rules) {
+    return rules->creases == LIMN_CREASES_LOMONT ? &limni_lomont_creases
+                                                 : &limni_opensubdiv_creases;
+}
 
 bool limni_star_decays(const limni_star *star) {
     bool decays = limni_is_semi_sharp(star->sharpness);
@@ -9,84 +15,70 @@ bool limni_star_decays(const limni_star *star) {
     return decays;
 }
 
-static limni_sharp_edges sharp_edges_of(const limni_star *star) {
+limni_sharp_edges limni_star_sharp_edges(const limni_star *star) {
     limni_sharp_edges edges = {0};
     for (uint32_t r = 0; star->edges && r < star->count; r++)
         limni_sharp_edges_add(&edges, star->edges[r]);
     return edges;
 }
 
-limni_sharpness limni_star_next_edge(limn_creasing creasing, const limni_star *star, uint32_t r) {
-    return limni_edge_sharpness_next(creasing, limni_star_edge(star, r), sharp_edges_of(star));
-}
-
 uint32_t limni_star_opposite(const limni_star *star, uint32_t r) {
     return star->closed ? 2 * ((r + star->count / 2) % star->count) : 0;
 }
 
-static limni_vertex_rule rule_of(limni_sharpness vertex, uint32_t sharp_count) {
+limni_vertex_rule limni_vertex_rule_of(bool sharp, uint32_t sharp_count) {
     static const limni_vertex_rule by_count[] = {LIMNI_VERTEX_SMOOTH, LIMNI_VERTEX_DART,
                                                  LIMNI_VERTEX_CREASE};
-    return vertex > 0 || sharp_count > 2 ? LIMNI_VERTEX_CORNER : by_count[sharp_count];
+    return sharp || sharp_count > 2 ? LIMNI_VERTEX_CORNER : by_count[sharp_count];
 }
 
-/// Counts one edge of a feature; its rule is not known before the last.
-static void add_edge(limni_feature *feature, uint32_t *sharp_count, limni_sharpness s, uint32_t r) {
-    if (s == 0) return;
-    feature->ends[*sharp_count > 0] = r;
-    ++*sharp_count;
-}
-
-/// The feature of what is at least as sharp as `least`.
-static limni_feature find_feature(const limni_star *star, limni_sharpness least) {
+limni_feature limni_star_find_feature(const limni_star *star, limni_sharpness edges,
+                                      limni_sharpness vertex) {
     limni_feature feature = {0};
     uint32_t sharp_count = 0;
     for (uint32_t r = 0; r < star->count; r++) {
-        const limni_sharpness s = limni_star_edge(star, r);
-        add_edge(&feature, &sharp_count, s >= least ? s : 0, r);
+        if (limni_star_edge(star, r) < edges) continue;
+        feature.ends[sharp_count > 0] = r;
+        sharp_count++;
     }
-    feature.rule = rule_of(star->sharpness >= least ? star->sharpness : 0, sharp_count);
+    feature.rule = limni_vertex_rule_of(star->sharpness >= vertex, sharp_count);
+    feature.regular = star->closed ? star->count == 6 && feature.ends[1] == feature.ends[0] + 3
+                                   : star->count == 4;
     return feature;
 }
 
-limni_feature limni_star_feature(const limni_star *star) {
-    return find_feature(star, 1);
+limni_feature limni_star_feature(const limni_rules *rules, const limni_star *star) {
+    const limni_sharpness least = creases_of(rules)->sharp_from;
+    return limni_star_find_feature(star, least, least);
 }
 
 limni_feature limni_star_last_feature(const limni_star *star) {
-    return find_feature(star, LIMNI_SHARPNESS_INFINITE);
+    return limni_star_find_feature(star, LIMNI_SHARPNESS_INFINITE, LIMNI_SHARPNESS_INFINITE);
 }
 
-limni_transition limni_star_transition(limn_creasing creasing, const limni_star *star) {
-    limni_transition t = {.now = limni_star_feature(star), .weight = LIMNI_FIXED_ONE};
-    if (!limni_star_decays(star)) return t;
-    const limni_sharp_edges around = sharp_edges_of(star);
-    const limni_sharpness vertex = limni_sharpness_next(star->sharpness);
-    const bool vertex_ends = star->sharpness > 0 && vertex == 0;
-    // The average of what ends on this level.
-    limni_wide sum = vertex_ends ? star->sharpness : 0;
-    uint32_t ended = vertex_ends, sharp_count = 0;
-    for (uint32_t r = 0; r < star->count; r++) {
-        const limni_sharpness s = limni_star_edge(star, r);
-        const limni_sharpness next = limni_edge_sharpness_next(creasing, s, around);
-        add_edge(&t.next, &sharp_count, next, r);
-        if (s == 0 || next > 0) continue;
-        sum += s;
-        ended++;
-    }
-    t.next.rule = rule_of(vertex, sharp_count);
-    if (t.next.rule == t.now.rule) return t;
-    const limni_wide average =
-        limni_wide_divide(sum << (LIMNI_FIXED_BITS - LIMNI_SHARPNESS_BITS), ended);
-    if (average < LIMNI_FIXED_ONE) t.weight = (limni_fixed)average;
-    return t;
+bool limni_star_is_settled(const limni_rules *rules, const limni_star *star) {
+    return creases_of(rules)->is_settled(star);
 }
 
-/// With Chaikin's rule one half may end with a sharpness above 1, up to 4/3; OpenSubdiv takes it as
-/// the weight all the same.
-limni_fixed limni_star_edge_weight(limn_creasing creasing, const limni_star *star, uint32_t r) {
-    const limni_sharpness s = limni_star_edge(star, r);
-    if (!limni_is_semi_sharp(s)) return s > 0 ? LIMNI_FIXED_ONE : 0;
-    if (limni_star_next_edge(creasing, star, r) > 0 && star->beyond[r] > 0) return LIMNI_FIXED_ONE;
-    return limni_sharpness_to_fixed(s);
+limni_transition limni_star_transition(const limni_rules *rules, const limni_star *star) {
+    return creases_of(rules)->transition(rules, star);
+}
+
+limni_edge_feature limni_star_edge_feature(const limni_rules *rules, const limni_star *star,
+                                           uint32_t r) {
+    return creases_of(rules)->edge_feature(rules, star, r);
+}
+
+limni_sharpness limni_star_next_edge(const limni_rules *rules, const limni_star *star, uint32_t r) {
+    return limni_edge_sharpness_next(rules->creasing, limni_star_edge(star, r),
+                                     limni_star_sharp_edges(star));
+}
+
+void limni_star_see(const limni_rules *rules, const limni_star *star, uint32_t first,
+                    uint32_t count, uint32_t *seen) {
+    creases_of(rules)->see(rules, star, first, count, seen);
+}
+
+uint32_t limni_star_next_beyond(const limni_rules *rules, const limni_star *star, uint32_t r) {
+    return creases_of(rules)->next_beyond(rules, star, r);
 }

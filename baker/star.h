@@ -3,6 +3,7 @@
 #ifndef LIMNI_STAR_H
 #define LIMNI_STAR_H
 
+#include "rules.h"
 #include "sharpness.h"
 
 #include <stdbool.h>
@@ -15,9 +16,9 @@ typedef struct limni_star {
     uint32_t *ring;            ///< [count]
     limni_sharpness sharpness; ///< of the vertex
     limni_sharpness *edges;    ///< [count] of the edges to the ring, infinite on a boundary; NULL:
-                               ///< none is sharp but the boundary
-    limni_sharpness *beyond;   ///< [count] what their halves at the far ends will have after a
-                               ///< level; NULL with `edges`
+                               ///< none is sharp, but a boundary if the rules need not see its ends
+    uint32_t *beyond;          ///< [count] what the rules have to know of the far ends, see
+                               ///< limni_star_see(); NULL with `edges`
 } limni_star;
 
 typedef enum limni_vertex_rule {
@@ -31,6 +32,7 @@ typedef enum limni_vertex_rule {
 typedef struct limni_feature {
     limni_vertex_rule rule;
     uint32_t ends[2]; ///< of a crease: the places of its two edges in the ring; of a dart: [0]
+    bool regular;     ///< of a crease: with two neighbours on each side of it
 } limni_feature;
 
 /// How a vertex goes through a level: its mask is `weight` of that for what it is, and the rest of
@@ -39,6 +41,13 @@ typedef struct limni_transition {
     limni_feature now, next;
     limni_fixed weight; ///< 1 where `next` has no part in it
 } limni_transition;
+
+/// What an edge is: its mask is `weight` of that for a crease, and the rest of that for a smooth
+/// edge.
+typedef struct limni_edge_feature {
+    limni_fixed weight;
+    int ends[2]; ///< what a crease gives the vertex itself and the other end, in eighths
+} limni_edge_feature;
 
 static inline bool limni_star_has_left(const limni_star *star, uint32_t r) {
     return star->closed || r + 1 < star->count;
@@ -65,21 +74,31 @@ static inline limni_sharpness limni_star_edge(const limni_star *star, uint32_t r
     return inside ? 0 : LIMNI_SHARPNESS_INFINITE;
 }
 
-/// Whether anything at the vertex will be less sharp after a level.
-bool limni_star_decays(const limni_star *star);
+/// Whether the limit masks hold: nothing will be less sharp after a level, and what the vertex is
+/// next to does not matter.
+bool limni_star_is_settled(const limni_rules *rules, const limni_star *star);
 
-/// What the half of the edge to ring vertex r that is next to the vertex has after a level.
-limni_sharpness limni_star_next_edge(limn_creasing creasing, const limni_star *star, uint32_t r);
-
-limni_feature limni_star_feature(const limni_star *star);
+limni_feature limni_star_feature(const limni_rules *rules, const limni_star *star);
 
 /// What the vertex is when all that decays has.
 limni_feature limni_star_last_feature(const limni_star *star);
 
-limni_transition limni_star_transition(limn_creasing creasing, const limni_star *star);
+limni_transition limni_star_transition(const limni_rules *rules, const limni_star *star);
 
-/// How much of a crease the edge to ring vertex r is in the mask of its new vertex: 0 if it is
-/// smooth, 1 if it is sharp, and its sharpness on the level at which that ends.
-limni_fixed limni_star_edge_weight(limn_creasing creasing, const limni_star *star, uint32_t r);
+/// What the edge to ring vertex r is.
+limni_edge_feature limni_star_edge_feature(const limni_rules *rules, const limni_star *star,
+                                           uint32_t r);
+
+/// What the half of the edge to ring vertex r that is next to the vertex has after a level.
+limni_sharpness limni_star_next_edge(const limni_rules *rules, const limni_star *star, uint32_t r);
+
+/// What some ring vertices have to know of the vertex, which is beyond the edges to them.
+///
+/// seen  out: [count] of ring vertex `first` and those that follow; 0 where the edge is smooth
+void limni_star_see(const limni_rules *rules, const limni_star *star, uint32_t first,
+                    uint32_t count, uint32_t *seen);
+
+/// What there is beyond the edge to ring vertex r after a level, at the new vertex on it.
+uint32_t limni_star_next_beyond(const limni_rules *rules, const limni_star *star, uint32_t r);
 
 #endif

@@ -21,8 +21,8 @@ typedef struct complex {
     uint32_t *
         edge_points[CORE_MAX]; ///< parallel to the rings: the vertex of the next level on that edge
     uint32_t *ring_pool;       ///< what rings and edge_points point into
-    limni_sharpness *sharpness_pool; ///< what the sharpness of edges points into; NULL: none is
-    limni_fixed *coefficients;       ///< [vertex_count][control_count]
+    uint32_t *sharpness_pool;  ///< what edges and beyond point into; NULL: no edge is sharp
+    limni_fixed *coefficients; ///< [vertex_count][control_count]
 } complex;
 
 typedef struct subdivision {
@@ -74,11 +74,11 @@ static void apply_vertex_mask(const subdivision *s, const complex *c, uint32_t v
 static void apply_edge_mask(const subdivision *s, const complex *c, uint32_t v, uint32_t r,
                             limni_fixed *dst) {
     const limni_star *const star = &c->stars[v];
-    const limni_fixed sharp = limni_star_edge_weight(s->rules->creasing, star, r);
-    const limni_edge_mask mask = limni_loop_edge_mask(sharp);
+    const limni_edge_feature feature = limni_star_edge_feature(s->rules, star, r);
+    const limni_edge_mask mask = limni_loop_edge_mask(&feature);
     begin_sum(s);
-    add_to_sum(s, c, v, mask.end);
-    add_to_sum(s, c, star->ring[r], mask.end);
+    add_to_sum(s, c, v, mask.ends[0]);
+    add_to_sum(s, c, star->ring[r], mask.ends[1]);
     add_to_sum(s, c, star->ring[limni_star_left(star, r)], mask.opposite);
     add_to_sum(s, c, star->ring[limni_star_right(star, r)], mask.opposite);
     end_sum(s, dst);
@@ -200,26 +200,17 @@ static void make_rings(const subdivision *s, const complex *c, complex *next) {
 
 // ---- Sharpness
 
-/// Of two halves of an edge that meet in its new vertex, what the first has there after a level.
-static limni_sharpness next_beyond(limn_creasing creasing, limni_sharpness half,
-                                   limni_sharpness other) {
-    limni_sharp_edges both = {0};
-    limni_sharp_edges_add(&both, half);
-    limni_sharp_edges_add(&both, other);
-    return limni_edge_sharpness_next(creasing, half, both);
-}
-
-static void sharpen_old_star(limn_creasing creasing, const limni_star *old, limni_star *star) {
+static void sharpen_old_star(const limni_rules *rules, const limni_star *old, limni_star *star) {
     star->sharpness = limni_sharpness_next(old->sharpness);
     for (uint32_t r = 0; star->edges && r < star->count; r++) {
-        star->edges[r] = limni_star_next_edge(creasing, old, r);
-        star->beyond[r] = next_beyond(creasing, star->edges[r], old->beyond[r]);
+        star->edges[r] = limni_star_next_edge(rules, old, r);
+        star->beyond[r] = limni_star_next_beyond(rules, old, r);
     }
 }
 
 /// A new vertex has the halves of its edge, and no other sharp edge; their far ends, its parents,
 /// come before it.
-static void sharpen_new_star(limn_creasing creasing, const complex *c, uint32_t a, uint32_t r,
+static void sharpen_new_star(const limni_rules *rules, const complex *c, uint32_t a, uint32_t r,
                              const complex *next, limni_star *star) {
     const uint32_t ends[2] = {a, c->stars[a].ring[r]};
     const uint32_t places[2] = {r, opposite_place(c, a, r)};
@@ -231,13 +222,12 @@ static void sharpen_new_star(limn_creasing creasing, const complex *c, uint32_t 
         while (star->ring[q] != ends[end])
             q++;
         star->edges[q] = parent->edges[places[end]];
-        star->beyond[q] = limni_star_next_edge(creasing, parent, places[end]);
+        limni_star_see(rules, parent, places[end], 1, &star->beyond[q]);
     }
 }
 
 static void sharpen_stars(const subdivision *s, const complex *c, complex *next) {
-    const limn_creasing creasing = s->rules->creasing;
-    limni_sharpness *pool = next->sharpness_pool;
+    uint32_t *pool = next->sharpness_pool;
     for (uint32_t row = 0; row < next->core_count; row++) {
         limni_star *const star = &next->stars[row];
         if (pool) {
@@ -246,9 +236,9 @@ static void sharpen_stars(const subdivision *s, const complex *c, complex *next)
             pool += 2 * star->count;
         }
         if (row < c->core_count) {
-            sharpen_old_star(creasing, &c->stars[row], star);
+            sharpen_old_star(s->rules, &c->stars[row], star);
         } else if (pool) {
-            sharpen_new_star(creasing, c, s->domain->rows[row].parents[0],
+            sharpen_new_star(s->rules, c, s->domain->rows[row].parents[0],
                              grid_edge_place(s, c, row), next, star);
         }
     }
@@ -333,9 +323,9 @@ static void set_identity(const subdivision *s, const uint32_t *twins, complex *c
 
 // ---- The limit
 
-/// Refines a complex of one core vertex until nothing there decays.
+/// Refines a complex of one core vertex until it is settled.
 static limn_bake_status settle(const subdivision *s, complex *c) {
-    while (limni_star_decays(&c->stars[0])) {
+    while (!limni_star_is_settled(s->rules, &c->stars[0])) {
         complex next;
         LIMNI_TRY(refine(s, c, 1, &next));
         release_level(s, c);
@@ -387,7 +377,7 @@ typedef struct limit_rows {
     limni_fixed *tangents[2]; ///< NULL: not wanted
 } limit_rows;
 
-/// The limit of core vertex v, which does not decay.
+/// The limit of core vertex v, which is settled.
 ///
 /// start  see limni_loop_tangent_masks()
 static void project(const subdivision *s, const complex *c, uint32_t v, uint32_t start,
@@ -399,14 +389,14 @@ static void project(const subdivision *s, const complex *c, uint32_t v, uint32_t
         apply_vertex_mask(s, c, v, s->weights, dst->positions);
     }
     if (!dst->tangents[0]) return;
-    limni_loop_tangent_masks(star, start, along, across);
+    limni_loop_tangent_masks(s->rules, star, start, along, across);
     apply_vertex_mask(s, c, v, along, dst->tangents[0]);
     apply_vertex_mask(s, c, v, across, dst->tangents[1]);
 }
 
 static limn_bake_status project_row(const subdivision *s, const complex *c, uint32_t row,
                                     uint32_t start, const limit_rows *dst) {
-    if (!limni_star_decays(&c->stars[row])) {
+    if (limni_star_is_settled(s->rules, &c->stars[row])) {
         project(s, c, row, start, dst);
         return LIMN_BAKE_OK;
     }

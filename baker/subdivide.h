@@ -17,7 +17,7 @@ typedef struct limni_neighbourhood {
 typedef enum limni_projection {
     LIMNI_PROJECT_NOT,     ///< they stay where that level puts them
     LIMNI_PROJECT_TO_LIMIT ///< they move to where all further levels would take them: first to the
-                           ///< level at which nothing is semi-sharp around them, the tenth at most
+                           ///< level at which they are settled, the eleventh at most
 } limni_projection;
 
 /// Subdivides the triangle symbolically, `depth` times, 0 to LIMN_LEVEL_MAX.
@@ -33,7 +33,7 @@ limn_bake_status limni_subdivide(limni_context *context, const limni_rules *rule
                                  limni_projection projection, limni_fixed *positions,
                                  limni_fixed *tangents);
 
-/// limni_loop_tangent_masks() of a star that may decay: relative to the vertex and its ring as they
+/// limni_loop_tangent_masks() of a star that need not be settled: relative to the vertex and its ring as they
 /// are.
 ///
 /// along, across  out: [1 + star->count]

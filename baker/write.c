@@ -233,7 +233,10 @@ static void describe(const limni_rules *rules, const limni_patches *meshes, uint
     const char *const creasing = creasing_name(meshes, mesh_count);
     const char *const normals = rules->normals == LIMN_NORMALS_EXACT ? "exact" : "none";
     char creases[64] = "";
-    if (creasing) snprintf(creases, sizeof creases, " creases=opensubdiv creasing=%s", creasing);
+    if (rules->creases == LIMN_CREASES_LOMONT)
+        strcpy(creases, " creases=lomont");
+    else if (creasing)
+        snprintf(creases, sizeof creases, " creases=opensubdiv creasing=%s", creasing);
     char isolate[96];
     describe_isolation(rules, meshes, mesh_count, isolate, sizeof isolate);
     snprintf(text, size, "scheme=%s weights=%s boundary=%s%s normals=%s%s",

@@ -173,7 +173,11 @@ says stdout 'creases=opensubdiv creasing=uniform'
 works bake tagged/sail.obj -o tagged.limn --creasing chaikin --creases opensubdiv
 works info tagged.limn
 says stdout 'creasing=chaikin'
-refuses 1 "Lomont's rules" bake tagged/sail.obj -o tagged.limn --creases lomont
+works bake tagged/sail.obj -o lomont.limn --creases lomont
+works info lomont.limn
+says stdout 'boundary=edge-only creases=lomont normals=none'
+cmp -s tagged.limn lomont.limn && fail "--creases lomont does nothing"
+refuses 1 "Chaikin's creasing goes with" bake tagged/sail.obj -o tagged.limn --creases lomont --creasing chaikin
 refuses 2 "no crease rules 'hoppe'" bake tagged/sail.obj -o tagged.limn --creases hoppe
 refuses 2 "no creasing method 'hard'" bake tagged/sail.obj -o tagged.limn --creasing hard
 tagged 't hole 3/0/0 0 5 87'
@@ -269,6 +273,9 @@ same_bake() {
     works bake -q "$1" -o one.limn
     works bake -q "$2" -o two.limn
     cmp one.limn two.limn || fail "$1 and $2 do not give the same file"
+    run 0 bake -q "$1" -o one.limn --creases lomont
+    works bake -q "$2" -o two.limn --creases lomont
+    cmp one.limn two.limn || fail "$1 and $2 do not give the same file with Lomont's rules"
 }
 
 # tags_of FILE: its creases and corners that are not smooth, in an order of their own.
@@ -345,6 +352,9 @@ expect "Lomont's entries" "$(cut -d' ' -f1 lomont.obj | uniq -c | tr -s ' \n' ' 
     " 1 #SubdivisionSurfL 1 si 8 v 10 f 30 hd 8 vs 5 t "
 expect "boundaries" "$(grep '^hd -1' lomont.obj | sort | uniq -c | tr -s ' ')" ' 4 hd -1 inf'
 expect "one sharpness, twice" "$(grep -c '^hd .* 0.333333343$' lomont.obj)" 2
+notes "lomont.obj: a mesh of Lomont's with OpenSubdiv's creases" bake lomont.obj -o lomont.limn
+works bake -q lomont.obj -o lomont.limn --creases lomont
+notes "house.obj: Chaikin's creasing is ignored" bake house.obj -o lomont.limn --creases lomont
 notes 'house.off: lost, as the format has no tags: 5 creases, 2 corners, 1 holes, and rules' convert house.obj house.off
 works convert house.off house.ply
 says stdout '^house.ply: 8 vertices, 5 faces$'
@@ -744,6 +754,10 @@ else
     says stdout 'largest '
     says stderr 'largest difference is above 0'
     refuses 1 'warren weights' verify warren.limn --against "$sail"
+    run 0 bake -q "$sail" -o lomont.limn --creases lomont
+    refuses 1 "Lomont's rules" verify lomont.limn --against "$sail"
+    run 0 bake -q "$torus" -o lomont.limn --creases lomont
+    run 0 verify lomont.limn --against "$torus"
     refuses 1 'there is no mesh 4; the file has 4' verify several.limn --against "$torus" --mesh 4
     refuses 1 'missing.obj: cannot be read' verify torus.limn --against missing.obj
     refuses 1 'edge.obj: non-manifold edge' verify torus.limn --against edge.obj

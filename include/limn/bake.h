@@ -40,7 +40,8 @@ typedef enum limn_weights {
     LIMN_WEIGHTS_WARREN ///< Warren's: 3/8 in all on the neighbours, 9/16 at valence 3
 } limn_weights;
 
-/// What happens at the boundary. Boundary edges give cubic B-spline curves.
+/// What happens at the boundary. Boundary edges give cubic B-spline curves, with Lomont's rules
+/// between vertices of three faces only.
 typedef enum limn_boundary {
     LIMN_BOUNDARY_DEFAULT,         ///< what the mesh or its file asks for; otherwise edge-only
     LIMN_BOUNDARY_EDGE_ONLY,       ///< corners of the boundary are rounded
@@ -48,13 +49,14 @@ typedef enum limn_boundary {
     LIMN_BOUNDARY_NONE ///< faces at a boundary are holes, unless all boundary edges are sharp there
 } limn_boundary;
 
-/// What sharp edges and vertices mean.
+/// What sharp edges and vertices mean, and boundaries, whose edges are sharp for ever.
 typedef enum limn_creases {
-    LIMN_CREASES_OPENSUBDIV,
-    LIMN_CREASES_LOMONT ///< not supported yet: refused where anything is sharp
+    LIMN_CREASES_OPENSUBDIV, ///< also for files in Lomont's format, with a note
+    LIMN_CREASES_LOMONT      ///< those of "High Performance Subdivision Surfaces"
 } limn_creases;
 
-/// How the sharpness of an edge passes on to its halves, level by level.
+/// How the sharpness of an edge passes on to its halves, level by level, with OpenSubdiv's rules;
+/// with Lomont's it falls by 1, and Chaikin's method is refused.
 typedef enum limn_creasing {
     LIMN_CREASING_DEFAULT, ///< what the mesh or its file asks for; otherwise uniform
     LIMN_CREASING_UNIFORM, ///< it falls by 1

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef LIMNI_RULES_H
+#define LIMNI_RULES_H
+
+#include "limn/bake.h"
+
+/// The options that decide the masks. Meshes of one file may differ in what limn_bake_desc leaves to
+/// them.
+typedef struct limni_rules {
+    limn_scheme scheme;
+    limn_weights weights;
+    limn_boundary boundary; ///< not the default, nor that of creasing
+    limn_creases creases;
+    limn_creasing creasing; ///< uniform with Lomont's creases
+    limn_normals normals;
+    limn_isolate isolate;
+} limni_rules;
+
+#endif
