@@ -35,3 +35,12 @@ int mesh_files_visit(void (*visit)(const char *path)) {
     }
     return count;
 }
+
+bool mesh_files_have_tags(const char *path) {
+    static const char *const words[] = {"crease", "sharp", "edgecorner", "dart", "sail"};
+    const char *const slash = strrchr(path, '/');
+    bool any = false;
+    for (int w = 0; w < 5; w++)
+        any |= strstr(slash ? slash : path, words[w]) != NULL;
+    return any;
+}

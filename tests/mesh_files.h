@@ -6,7 +6,12 @@
 #ifndef MESH_FILES_H
 #define MESH_FILES_H
 
+#include <stdbool.h>
+
 /// Calls `visit` with the path of every .obj and .off file, in a fixed order. Returns how many.
 int mesh_files_visit(void (*visit)(const char *path));
+
+/// Whether the name of a mesh says that it has creases or corners, or a boundary.
+bool mesh_files_have_tags(const char *path);
 
 #endif

@@ -31,6 +31,8 @@ static float random_float(float low, float high) {
     return low + (high - low) * (float)next_random() / 2147483648.0f;
 }
 
+static limn_creases creases; ///< of all bakes from here on
+
 typedef struct subject {
     limn_baker *baker;
     limn_pack pack;
@@ -77,7 +79,8 @@ static bool find_boundary(subject *s) {
 static bool load(subject *s, const char *path, limn_isolate isolate) {
     const void *blob;
     size_t size;
-    const limn_bake_desc desc = {.normals = LIMN_NORMALS_EXACT, .isolate = isolate};
+    const limn_bake_desc desc = {
+        .creases = creases, .normals = LIMN_NORMALS_EXACT, .isolate = isolate};
     *s = (subject){.baker = limn_baker_create(&desc)};
     if (limn_baker_add_file(s->baker, path) != LIMN_BAKE_OK) return false;
     CHECK_EQUAL(limn_baker_finish(s->baker, &blob, &size), LIMN_BAKE_OK);
@@ -507,20 +510,30 @@ static void test_frame(subject *s, int frame) {
     frame_count++;
 }
 
-static void visit_as(const char *path, limn_isolate isolate) {
+static void test_frames(const char *path, limn_isolate isolate, int first, int end) {
     subject s;
     if (load(&s, path, isolate)) {
         mesh_count++;
         open_count += find_boundary(&s);
-        for (int frame = 0; frame < FRAMES_PER_MESH; frame++)
+        for (int frame = first; frame < end; frame++)
             test_frame(&s, frame);
     }
     unload(&s);
 }
 
 static void visit(const char *path) {
-    visit_as(path, LIMN_ISOLATE_NEVER);
-    visit_as(path, LIMN_ISOLATE_ALWAYS);
+    test_frames(path, LIMN_ISOLATE_NEVER, 0, FRAMES_PER_MESH);
+    test_frames(path, LIMN_ISOLATE_ALWAYS, 0, FRAMES_PER_MESH);
+}
+
+/// With Lomont's creases; budgets, in the frames before and after these, know nothing of them.
+static void visit_tagged(const char *path) {
+    creases = LIMN_CREASES_LOMONT;
+    if (mesh_files_have_tags(path)) {
+        test_frames(path, LIMN_ISOLATE_NEVER, 2, 9);
+        test_frames(path, LIMN_ISOLATE_ALWAYS, 2, 9);
+    }
+    creases = LIMN_CREASES_OPENSUBDIV;
 }
 
 /// This test must be able to fail: a weight that differs by one bit opens an edge.
@@ -545,6 +558,7 @@ int main(void) {
     domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE);
     limn_templates_write(domain, LIMN_TOPOLOGY_TRIANGLES, 2, indices, templates);
     CHECK(mesh_files_visit(visit) > 0);
+    mesh_files_visit(visit_tagged);
     snprintf(path, sizeof path, "%s/imp.obj", getenv("LIMN_ASSETS"));
     test_can_fail(path);
     printf("%lu frames of %lu meshes, %lu of them with a boundary; %lu of %lu patches culled\n",

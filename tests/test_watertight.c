@@ -25,6 +25,8 @@ typedef struct subject {
     float *control_normals; ///< [normal_count][3]
 } subject;
 
+static limn_creases creases; ///< of all bakes from here on
+
 static unsigned long long total_vertices, total_meshes, refused_meshes, split_vertices,
     sheet_vertices;
 
@@ -290,9 +292,10 @@ static void check_file(const char *path, limn_bake_desc desc) {
 }
 
 static void visit(const char *path) {
-    check_file(path, (limn_bake_desc){.normals = LIMN_NORMALS_EXACT});
-    check_file(path,
-               (limn_bake_desc){.normals = LIMN_NORMALS_EXACT, .isolate = LIMN_ISOLATE_ALWAYS});
+    limn_bake_desc desc = {.creases = creases, .normals = LIMN_NORMALS_EXACT};
+    check_file(path, desc);
+    desc.isolate = LIMN_ISOLATE_ALWAYS;
+    check_file(path, desc);
 }
 
 static void write_vertices(FILE *file, uint32_t count, double height) {
@@ -434,6 +437,19 @@ static void test_book(void) {
     remove(path);
 }
 
+static void visit_tagged(const char *path) {
+    if (mesh_files_have_tags(path)) visit(path);
+}
+
+/// Lomont's rules, with tags and at boundaries.
+static void test_lomont(void) {
+    creases = LIMN_CREASES_LOMONT;
+    mesh_files_visit(visit_tagged);
+    test_tagged(false);
+    test_generated(20, false);
+    creases = LIMN_CREASES_OPENSUBDIV;
+}
+
 static void test_warren(const char *path) {
     check_file(path, (limn_bake_desc){.normals = LIMN_NORMALS_EXACT,
                                       .weights = LIMN_WEIGHTS_WARREN,
@@ -550,6 +566,7 @@ int main(void) {
     test_book();
     test_tagged(false);
     test_tagged(true);
+    test_lomont();
     static const uint32_t valences[] = {3, 7, 20, 26, 64, 255, 300, 500};
     for (int v = 0; v < 8; v++) {
         test_generated(valences[v], true);
