@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-static const limni_sharpness one_level = (limni_sharpness)1 << LIMNI_SHARPNESS_BITS;
-
 limni_sharpness limni_sharpness_from_float(float sharpness) {
     if (!(sharpness > 0)) return 0;
     if (sharpness >= 10) return LIMNI_SHARPNESS_INFINITE;
@@ -14,7 +12,7 @@ limni_sharpness limni_sharpness_from_float(float sharpness) {
 
 limni_sharpness limni_sharpness_next(limni_sharpness s) {
     if (s >= LIMNI_SHARPNESS_INFINITE) return s;
-    return s > one_level ? s - one_level : 0;
+    return s > LIMNI_SHARPNESS_LEVEL ? s - LIMNI_SHARPNESS_LEVEL : 0;
 }
 
 limni_sharpness limni_edge_sharpness_next(limn_creasing creasing, limni_sharpness s,

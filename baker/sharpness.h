@@ -14,8 +14,9 @@
 typedef uint32_t limni_sharpness;
 
 #define LIMNI_SHARPNESS_BITS 24
+#define LIMNI_SHARPNESS_LEVEL ((limni_sharpness)1 << LIMNI_SHARPNESS_BITS)
 /// 10 and more never ends. Anything less ends within 10 levels.
-#define LIMNI_SHARPNESS_INFINITE ((limni_sharpness)10 << LIMNI_SHARPNESS_BITS)
+#define LIMNI_SHARPNESS_INFINITE (10 * LIMNI_SHARPNESS_LEVEL)
 
 /// The nearest step; below 0: 0.
 limni_sharpness limni_sharpness_from_float(float sharpness);

@@ -5,8 +5,8 @@
  */
 #include "crease_rules.h"
 
-/// One level: from here on an edge or vertex is sharp, and below a fraction of that.
-static const limni_sharpness sharp = (limni_sharpness)1 << LIMNI_SHARPNESS_BITS;
+/// From here on an edge or vertex is sharp, and below a fraction of that.
+enum { SHARP = LIMNI_SHARPNESS_LEVEL };
 
 typedef enum vertex_type {
     TYPE_SMOOTH,
@@ -18,12 +18,12 @@ typedef enum vertex_type {
 
 /// Whether an edge is smooth but for a fraction. It sees all others of its kind as sharp.
 static bool is_fractional(limni_sharpness edge) {
-    return edge > 0 && edge < sharp;
+    return edge > 0 && edge < SHARP;
 }
 
 static vertex_type type_of(const limni_star *star, bool fractions_are_sharp) {
     const limni_feature feature =
-        limni_star_find_feature(star, fractions_are_sharp ? 1 : sharp, sharp);
+        limni_star_find_feature(star, fractions_are_sharp ? 1 : SHARP, SHARP);
     switch (feature.rule) {
     case LIMNI_VERTEX_SMOOTH:
         return TYPE_SMOOTH;
@@ -39,7 +39,7 @@ static vertex_type type_of(const limni_star *star, bool fractions_are_sharp) {
 /// The masks of creases, and the tangents of corners, are for regular neighbours along sharp edges:
 /// all vertices have such from the level after their own on.
 static bool is_settled(const limni_star *star) {
-    const limni_vertex_rule rule = limni_star_find_feature(star, sharp, sharp).rule;
+    const limni_vertex_rule rule = limni_star_find_feature(star, SHARP, SHARP).rule;
     const bool smooth = rule == LIMNI_VERTEX_SMOOTH || rule == LIMNI_VERTEX_DART;
     for (uint32_t r = 0; !smooth && star->beyond && r < star->count; r++) {
         if (limni_star_edge(star, r) > 0 && star->beyond[r] != TYPE_REGULAR) return false;
@@ -94,7 +94,7 @@ static uint32_t next_beyond(const limni_rules *rules, const limni_star *star, ui
 }
 
 const limni_crease_rules limni_lomont_creases = {
-    .sharp_from = (limni_sharpness)1 << LIMNI_SHARPNESS_BITS,
+    .sharp_from = SHARP,
     .is_settled = is_settled,
     .transition = transition,
     .edge_feature = edge_feature,

@@ -17,7 +17,7 @@ typedef struct limni_neighbourhood {
 typedef enum limni_projection {
     LIMNI_PROJECT_NOT,     ///< they stay where that level puts them
     LIMNI_PROJECT_TO_LIMIT ///< they move to where all further levels would take them: first to the
-                           ///< level at which they are settled, the eleventh at most
+                           ///< level at which they are settled, the tenth at most
 } limni_projection;
 
 /// Subdivides the triangle symbolically, `depth` times, 0 to LIMN_LEVEL_MAX.

@@ -42,8 +42,8 @@ bake() {
     echo "status $status" >>"$name.txt"
 }
 
-# Bakes every mesh as it is, and mended with the other options; and those of the repository together, with both weights.
-# File names are relative, so that the builds say the same words.
+# Bakes every mesh as it is, and mended with the other options; and those of the repository together, with both weights and
+# with Lomont's creases. File names are relative, so that the builds say the same words.
 bake_all() {
     build=$1
     shift
@@ -58,6 +58,7 @@ bake_all() {
     for weights in loop warren; do
         bake "$build" "$weights-all" --weights $weights --normals exact "$source_folder"/assets/*.obj "$source_folder"/assets/*.off
     done
+    bake "$build" lomont --creases lomont --normals exact "$source_folder"/assets/*.obj "$source_folder"/docs/box.obj
     cd "$source_folder"
 }
 

@@ -11,7 +11,7 @@
 
 #include <stdlib.h>
 
-enum { SEED_COUNT = 36, STEPS = LIMN_GRID_SIZE };
+enum { SEED_COUNT = 16, TUBE_COUNT = 6, STEPS = LIMN_GRID_SIZE };
 
 static void *allocate(size_t count, size_t size) {
     void *const memory = malloc(count * size);
@@ -259,6 +259,18 @@ static void test_random_meshes(void) {
     }
 }
 
+/// Faces that differ by nothing but their tags, and what lies beyond them, have different classes.
+static void test_tubes(void) {
+    for (uint64_t seed = 0; seed < TUBE_COUNT; seed++) {
+        random_mesh tube = {.state = seed};
+        random_mesh_tube(&tube, 8, 5, seed % 2 == 0);
+        if (seed > 1) random_mesh_tag(&tube, seed != 2);
+        for (uint32_t v = 16; v < 24 && seed == 0; v++) // a ring
+            tube.vertex_weights[v] = v % 2 == 0 ? (float)v / 32 : 0;
+        bake_and_compare(&tube);
+    }
+}
+
 /// Rows are limits also where sharpness is above the level count.
 static void test_high_weights(void) {
     random_mesh random = {.state = 3};
@@ -274,14 +286,12 @@ static void test_high_weights(void) {
 int main(void) {
     test_random_meshes();
     test_high_weights();
-    random_mesh tube = {.state = 1};
-    random_mesh_tube(&tube, 8, 5, true);
-    bake_and_compare(&tube);
+    test_tubes();
     printf("%llu rows: difference %.1e of the diagonal, mean %.1e; %llu normals: angle %.1e, mean "
            "%.1e, %llu left out\n",
            (unsigned long long)row_count, largest_difference, mean_difference / (double)row_count,
            (unsigned long long)normal_count, largest_angle, mean_angle / (double)normal_count,
            (unsigned long long)left_out);
-    CHECK(normal_count > 200000 && left_out < normal_count / 1000);
+    CHECK(normal_count > 100000 && left_out < normal_count / 1000);
     return check_report();
 }
