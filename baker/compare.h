@@ -19,8 +19,8 @@ typedef struct limni_comparison {
 } limni_comparison;
 
 /// Compares the bind pose at level 4, all 153 rows of every face, with OpenSubdiv's answer for the
-/// mesh in the file `path`. Fails when the mesh was baked from something else, not with Loop's weights,
-/// or with Lomont's rules where these differ.
+/// mesh in the file `path`. Fails when the mesh was baked from something else, not with Loop's
+/// weights, or with Lomont's rules where these differ.
 limn_bake_status limni_compare(limni_context *context, const limn_pack *pack, const limn_mesh *mesh,
                                const char *path, limni_comparison *comparison);
 

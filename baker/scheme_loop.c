@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Loop subdivision (Loop 1987) with Loop's or Warren's weights, and cubic B-spline creases and
- * boundaries (Hoppe et al. 1994, or without his rules for vertices that are not regular).
+ * boundaries: all of them, as OpenSubdiv does, or only at regular vertices, as Hoppe et al. (1994)
+ * and Lomont do.
  * docs/design.md compares the formulas in print; several do not sum to 1.
  */
 #include "scheme.h"
@@ -87,9 +88,9 @@ static limni_fixed dart_power(uint32_t exponent) {
     return power;
 }
 
-/// Where a crease ends for ever. Its edge has the mask of a crease (but after Lomont), so the smooth
-/// limit is not the limit: that is the left eigenvector for the eigenvalue 1. With the vertex's weight 1, neighbour j
-/// from the crease on has 8 w z(j), where 5 z(j) - z(j - 1) - z(j + 1) = 1 between z(0) = z(n) = 0,
+/// Where a crease ends for ever, by OpenSubdiv's rules. Its edge has the mask of a crease, so the
+/// smooth limit is not the limit: that is the left eigenvector for the eigenvalue 1. With the
+/// vertex's weight 1, neighbour j from the crease on has 8 w z(j), where 5 z(j) - z(j - 1) - z(j + 1) = 1 between z(0) = z(n) = 0,
 /// which z(j) = (1 - (q^j + q^(n - j)) / (1 + q^n)) / 3 solves; and the crease 2 w (1 + 2 z(1)).
 static void fill_dart_limit(const limni_rules *rules, const limni_star *star, uint32_t crease,
                             limni_fixed *weights) {
@@ -197,10 +198,10 @@ static void hoppe_tangent(const limni_star *star, sector s, limni_fixed *across)
             limni_fixed_multiply(scale, limni_fixed_turn(k, 2 * (n - 1)).sine);
 }
 
-/// The part of a corner that a face's normal is that of: the face alone, which starts at ring vertex
-/// `first`; or with a smooth edge between two faces both. The tangents are then the sharp edges on
-/// both sides of it: the eigenvalue of what it has apart from them is 3/8 against their 1/2. Between
-/// more faces there is no tangent plane in the limit, as what the smooth edges have in common outlasts
+/// The part of a corner whose normal a face has: the face alone, which starts at ring vertex
+/// `first`; with a smooth edge between two faces both. The tangents are then the sharp edges on both
+/// sides of it: the eigenvalue of what it has apart from them is 3/8 against their 1/2. Between more
+/// faces there is no tangent plane in the limit, as what the smooth edges have in common outlasts
 /// the sharp ones.
 static sector corner_side(const limni_star *star, uint32_t first) {
     const uint32_t right = first, left = limni_star_left(star, first);

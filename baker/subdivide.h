@@ -33,8 +33,8 @@ limn_bake_status limni_subdivide(limni_context *context, const limni_rules *rule
                                  limni_projection projection, limni_fixed *positions,
                                  limni_fixed *tangents);
 
-/// limni_loop_tangent_masks() of a star that need not be settled: relative to the vertex and its ring as they
-/// are.
+/// limni_loop_tangent_masks() of a star that need not be settled: relative to the vertex and its
+/// ring as they are.
 ///
 /// along, across  out: [1 + star->count]
 limn_bake_status limni_star_tangents(limni_context *context, const limni_rules *rules,

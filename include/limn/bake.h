@@ -56,7 +56,8 @@ typedef enum limn_creases {
 } limn_creases;
 
 /// How the sharpness of an edge passes on to its halves, level by level, with OpenSubdiv's rules;
-/// with Lomont's it falls by 1, and Chaikin's method is refused.
+/// with Lomont's it falls by 1: Chaikin's method is refused here, and ignored with a note where a mesh
+/// asks for it.
 typedef enum limn_creasing {
     LIMN_CREASING_DEFAULT, ///< what the mesh or its file asks for; otherwise uniform
     LIMN_CREASING_UNIFORM, ///< it falls by 1

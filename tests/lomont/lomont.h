@@ -33,8 +33,9 @@
  *     every vertex from the level after its own on; but next to a control point that is not regular
  *     each level puts a new vertex, for which 1/48 moves from that neighbour to the vertex (7/48,
  *     33/48, 8/48), or beside a dart 1/48 from both of them to both vertices opposite. Tangents are
- *     alike. Here every vertex is subdivided once more before it is projected. And no limit holds
- *     until there is no finite weight left.
+ *     alike, and so are those of a corner where a sharp edge leads to a dart. Here every vertex is
+ *     subdivided once more before it is projected. And no limit holds until there is no finite weight
+ *     left.
  * 10. Normals are said to be computed "after computing limit positions". The masks are eigenvectors
  *     for the points of the level, not for their limits, from which normals are off by 1.7e-1 radians
  *     in the mean at level 1 and 5e-3 at level 4 of a random mesh. Applied to the points here.
