@@ -235,9 +235,9 @@ static limn_bake_status add_mesh(limn_baker *baker, const random_mesh *random) {
                                       });
 }
 
-static void bake_and_compare(const random_mesh *random) {
-    limn_baker *const baker = limn_baker_create(
-        &(limn_bake_desc){.creases = LIMN_CREASES_LOMONT, .normals = LIMN_NORMALS_EXACT});
+static void bake_and_compare(const random_mesh *random, limn_isolate isolate) {
+    limn_baker *const baker = limn_baker_create(&(limn_bake_desc){
+        .creases = LIMN_CREASES_LOMONT, .normals = LIMN_NORMALS_EXACT, .isolate = isolate});
     const void *blob;
     size_t size;
     limn_pack pack;
@@ -250,12 +250,13 @@ static void bake_and_compare(const random_mesh *random) {
     limn_baker_destroy(baker);
 }
 
-/// Of every four seeds one without tags, one with such that last, two with all kinds.
+/// Of every four seeds one without tags, one with such that last, two with all kinds; every other
+/// four in pieces.
 static void test_random_meshes(void) {
     for (uint64_t seed = 0; seed < SEED_COUNT; seed++) {
         random_mesh random = random_mesh_make(seed, seed / 2 % 2 == 1);
         if (seed % 4 > 0) random_mesh_tag(&random, seed % 4 > 1);
-        bake_and_compare(&random);
+        bake_and_compare(&random, seed % 8 < 4 ? LIMN_ISOLATE_NEVER : LIMN_ISOLATE_ALWAYS);
     }
 }
 
@@ -267,7 +268,8 @@ static void test_tubes(void) {
         if (seed > 1) random_mesh_tag(&tube, seed != 2);
         for (uint32_t v = 16; v < 24 && seed == 0; v++) // a ring
             tube.vertex_weights[v] = v % 2 == 0 ? (float)v / 32 : 0;
-        bake_and_compare(&tube);
+        bake_and_compare(&tube, LIMN_ISOLATE_NEVER);
+        bake_and_compare(&tube, LIMN_ISOLATE_ALWAYS);
     }
 }
 
@@ -280,7 +282,8 @@ static void test_high_weights(void) {
     random_mesh_crease(&random, 0, 3, 4.25f);
     random_mesh_crease(&random, 2, 4, 6);
     random.vertex_weights[1] = 5.25f;
-    bake_and_compare(&random);
+    bake_and_compare(&random, LIMN_ISOLATE_NEVER);
+    bake_and_compare(&random, LIMN_ISOLATE_ALWAYS);
 }
 
 int main(void) {
