@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Opening a .limn file, and evaluating what could be opened: after that nothing may read outside.
+ * Opening a .limn file, and refining, planning and evaluating what could be opened: after that
+ * nothing may read outside.
  * The checksum is put right first, or nothing behind it would ever be tried.
  */
 #include "../../runtime/checksum.h"
@@ -25,26 +26,58 @@ static void put_right(unsigned char *blob, size_t size) {
     memcpy(blob, &header, summed);
 }
 
-static void evaluate(const limn_mesh *mesh, uint32_t level) {
-    const limn_plan plan = limn_plan_uniform(mesh, level);
-    if (plan.vertex_count == 0 || plan.vertex_count > VERTICES_MAX ||
-        mesh->control_count > VERTICES_MAX || mesh->normal_count > VERTICES_MAX)
-        return;
+static void *allocate(size_t size) {
+    void *const memory = malloc(size + (size == 0));
+    FUZZ_REQUIRE(memory);
+    return memory;
+}
+
+static void evaluate(const limn_mesh *mesh, const float *points, const limn_plan *plan) {
+    if (plan->vertex_count > VERTICES_MAX) return;
     const size_t vertex_size = 3 * sizeof(float);
-    float *const vertices = malloc((size_t)plan.vertex_count * vertex_size);
-    float *const normals = malloc((size_t)plan.vertex_count * vertex_size);
-    float *const control_normals = malloc(mesh->normal_count * vertex_size);
-    FUZZ_REQUIRE(vertices && normals && (control_normals || mesh->normal_count == 0));
+    float *const vertices = allocate((size_t)plan->vertex_count * vertex_size);
+    float *const normals = allocate((size_t)plan->vertex_count * vertex_size);
+    float *const control_normals = allocate(mesh->normal_count * vertex_size);
     limn_output output = {.vertices = vertices};
     if (mesh->normals) {
-        limn_mesh_control_normals(mesh, mesh->controls, control_normals);
+        limn_mesh_control_normals(mesh, points, control_normals);
         output.normals = normals;
         output.control_normals = control_normals;
     }
-    limn_evaluate(&plan, mesh->controls, 0, plan.patch_count, &output);
+    limn_evaluate(plan, points, 0, plan->patch_count, &output);
     free(vertices);
     free(normals);
     free(control_normals);
+}
+
+/// From the middle of the box of its control points outwards: some patches are seen, some are not.
+static void evaluate_frame(const limn_mesh *mesh, const float *points, limn_lod lod) {
+    const float target[3] = {mesh->bounds_max[0], mesh->bounds_max[1], mesh->bounds_max[2]};
+    const float up[3] = {0, 0, 1};
+    float eye[3];
+    for (int axis = 0; axis < 3; axis++)
+        eye[axis] = (mesh->bounds_min[axis] + mesh->bounds_max[axis]) / 2;
+    const limn_view view = limn_view_perspective(eye, target, up, 1, 640, 480, 1e-3f, 1e3f);
+    void *const memory = allocate(limn_plan_size(mesh));
+    const limn_plan plan =
+        limn_plan_build(mesh, points, &view, 1, &(limn_lod_desc){.lod = lod}, NULL, memory);
+    evaluate(mesh, points, &plan);
+    free(memory);
+}
+
+/// In a room of just the points of the mesh.
+static void draw(const limn_mesh *mesh) {
+    const size_t point_size = 3 * sizeof(float);
+    float *const points = allocate(mesh->point_count * point_size);
+    if (mesh->point_count) memcpy(points, mesh->controls, mesh->control_count * point_size);
+    limn_mesh_refine(mesh, points);
+    const limn_plan coarsest = limn_plan_uniform(mesh, 0);
+    const limn_plan finest = limn_plan_uniform(mesh, LIMN_LEVEL_MAX);
+    evaluate(mesh, points, &coarsest);
+    evaluate(mesh, points, &finest);
+    evaluate_frame(mesh, points, LIMN_LOD_LENGTH);
+    evaluate_frame(mesh, points, LIMN_LOD_ERROR);
+    free(points);
 }
 
 static void visit(const limn_mesh *mesh) {
@@ -56,8 +89,9 @@ static void visit(const limn_mesh *mesh) {
         FUZZ_REQUIRE(limn_mesh_face(mesh, p).face < mesh->face_count);
     }
     FUZZ_REQUIRE(mesh->name && strlen(mesh->name) < SIZE_MAX);
-    evaluate(mesh, 0);
-    evaluate(mesh, LIMN_LEVEL_MAX);
+    if (mesh->patch_count > 0 && mesh->point_count <= VERTICES_MAX &&
+        mesh->normal_count <= VERTICES_MAX)
+        draw(mesh);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
