@@ -149,6 +149,143 @@ static void test_layouts(void) {
     }
 }
 
+// ---- Pieces
+
+/// In the grid of the patch.
+typedef struct place {
+    int i, j;
+} place;
+
+/// Of two corners; twice as far, as the middle may be between two places.
+static place middle_of(int a, int b) {
+    static const place corners[3] = {{0, 0}, {LIMN_GRID_SIZE, 0}, {0, LIMN_GRID_SIZE}};
+    return (place){corners[a].i + corners[b].i, corners[a].j + corners[b].j};
+}
+
+/// Of a corner's piece, the corner itself and the middles of the edges that start and end there; of
+/// the middle one, the middles of edges. Likewise.
+static place corner_of_piece(int piece, int corner) {
+    if (piece == 3) return middle_of(corner, (corner + 1) % 3);
+    return middle_of(piece, (piece + corner) % 3);
+}
+
+/// Weighs the corners of the piece.
+static place place_in_patch(int piece, limn_row row) {
+    const place a = corner_of_piece(piece, 0), b = corner_of_piece(piece, 1);
+    const place c = corner_of_piece(piece, 2);
+    const int rest = LIMN_GRID_SIZE - row.i - row.j, unit = 2 * LIMN_GRID_SIZE;
+    const int i = rest * a.i + row.i * b.i + row.j * c.i;
+    const int j = rest * a.j + row.i * b.j + row.j * c.j;
+    CHECK(i % unit == 0 && j % unit == 0);
+    return (place){i / unit, j / unit};
+}
+
+static const limni_pieces *pieces;
+
+/// The row of the patch that waits at a place among those of all pieces, or LIMNI_NO_ROW.
+static uint32_t row_waiting(const limni_piece_layout layouts[2], uint32_t staged, uint32_t *piece,
+                            uint32_t *at) {
+    const uint32_t stride = layouts[LIMNI_PIECE_CORNER].row_stride;
+    *piece = staged / stride < 3 ? staged / stride : 3;
+    *at = staged - *piece * stride;
+    const limni_piece_layout *const layout = &layouts[limni_piece_kind_of(*piece)];
+    if (*at >= layout->row_stride || layout->rows[*at] == LIMNI_NO_ROW) return LIMNI_NO_ROW;
+    const place p = place_in_patch((int)*piece, domain->rows[layout->rows[*at]]);
+    return row_at(p.i, p.j);
+}
+
+static void check_piece_layout(const limni_piece_layout *layout, limni_piece_kind kind) {
+    const limn_file_piece record = {.kind = (uint16_t)kind};
+    CHECK_EQUAL(layout->row_stride, limn_file_piece_stride(&record));
+    CHECK_EQUAL(layout->row_stride % LIMN_FORMAT_ROW_BLOCK, 0);
+    for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
+        CHECK_EQUAL(layout->counts[level] % LIMN_FORMAT_ROW_BLOCK, 0);
+        CHECK(layout->counts[level] <= layout->row_stride);
+        CHECK(level == 0 || layout->counts[level] >= layout->counts[level - 1]);
+    }
+    bool seen[160] = {false};
+    for (uint32_t at = 0; at < layout->row_stride; at++) {
+        const uint32_t row = layout->rows[at];
+        if (row == LIMNI_NO_ROW) continue;
+        CHECK(row < domain->row_counts[LIMN_LEVEL_MAX - 1] && !seen[row]);
+        seen[row] = true;
+    }
+}
+
+/// Copies in order, four rows each, as kernels make them: what is then in the rows of a level is
+/// what waited for them, at places that this level has summed.
+static void check_copies(const limni_piece_layout layouts[2], const limni_piece_copy *copies,
+                         uint32_t count, uint32_t level, uint32_t first_row) {
+    uint32_t staged[160 + 4];
+    memset(staged, 0xff, sizeof staged);
+    for (uint32_t c = 0; c < count; c++) {
+        for (uint32_t r = 0; r < 4; r++) {
+            CHECK(copies[c].from + r < LIMNI_PIECE_PLACES + 4 && copies[c].to + r < 160);
+            staged[copies[c].to + r] = copies[c].from + r;
+        }
+    }
+    for (uint32_t row = first_row; row < domain->row_counts[level]; row++) {
+        uint32_t piece, at;
+        CHECK_EQUAL(row_waiting(layouts, staged[row], &piece, &at), row);
+        CHECK(at < layouts[limni_piece_kind_of(piece)].counts[level]);
+    }
+}
+
+/// Every row of the patch is one of a single piece; of the corners' tangents there are none.
+static void check_owners(const limni_piece_layout layouts[2], uint32_t first_row) {
+    int owners[160] = {0};
+    for (uint32_t staged = 0; staged < LIMNI_PIECE_PLACES; staged++) {
+        uint32_t piece, at;
+        const uint32_t row = row_waiting(layouts, staged, &piece, &at);
+        if (row != LIMNI_NO_ROW) owners[row]++;
+    }
+    for (uint32_t row = 0; row < domain->row_counts[LIMN_LEVEL_MAX]; row++)
+        CHECK_EQUAL(owners[row], row >= first_row ? 1 : 0);
+}
+
+/// The blocks of a corner's tangents that are summed relative to an end of an edge have all rows of
+/// the half edges at the corner: the first that of the edge that starts there, and its middle.
+static void check_half_edges(void) {
+    const limni_piece_layout *const layout = &pieces->tangents[LIMNI_PIECE_CORNER];
+    for (uint32_t at = 0; at < layout->row_stride; at++) {
+        if (layout->rows[at] == LIMNI_NO_ROW) continue;
+        const limn_row row = domain->rows[layout->rows[at]];
+        const bool along = row.j == 0, back = row.i == 0 && row.j < LIMN_GRID_SIZE;
+        CHECK_EQUAL(at < 8, along);
+        CHECK_EQUAL(at >= 8 && at < 16, back);
+        CHECK(row.i + row.j < LIMN_GRID_SIZE || along); // the rest belongs to the middle piece
+        CHECK(row.i + row.j > 0);
+    }
+    const limni_piece_layout *const middle = &pieces->tangents[LIMNI_PIECE_MIDDLE];
+    for (uint32_t at = 0; at < middle->row_stride; at++) {
+        if (middle->rows[at] == LIMNI_NO_ROW) continue;
+        const place p = place_in_patch(3, domain->rows[middle->rows[at]]);
+        CHECK_EQUAL(domain->rows[row_at(p.i, p.j)].edges, 0);
+    }
+}
+
+static void test_pieces(void) {
+    pieces = limni_pieces_get(domain->kind);
+    CHECK_EQUAL(3 * pieces->positions[LIMNI_PIECE_CORNER].row_stride +
+                    pieces->positions[LIMNI_PIECE_MIDDLE].row_stride,
+                LIMNI_PIECE_PLACES);
+    for (int kind = LIMNI_PIECE_CORNER; kind <= LIMNI_PIECE_MIDDLE; kind++) {
+        check_piece_layout(&pieces->positions[kind], (limni_piece_kind)kind);
+        check_piece_layout(&pieces->tangents[kind], (limni_piece_kind)kind);
+    }
+    check_owners(pieces->positions, 0);
+    check_owners(pieces->tangents, domain->corner_count);
+    check_half_edges();
+    for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
+        check_copies(pieces->positions, pieces->position_copies,
+                     pieces->position_copy_counts[level], level, 0);
+        check_copies(pieces->tangents, pieces->normal_copies, pieces->normal_copy_counts[level],
+                     level, domain->corner_count);
+    }
+}
+
+// ---- Order and indices
+
 /// The order within a level's new rows is part of the format: edges along their directions, then
 /// the interior: the mirror line, one side, piece by piece, and the other.
 static void test_order(void) {
@@ -202,6 +339,7 @@ int main(void) {
     test_edges();
     test_order();
     test_layouts();
+    test_pieces();
     test_indices();
     return check_report();
 }
