@@ -406,7 +406,8 @@ size_t limn_plan_size(const limn_mesh *mesh);
 /// Plans a frame: levels for all edges, and of the patches that may be seen in any view, their
 /// templates, weights and places. A patch is left out where all its control points are outside of
 /// one plane of every view: the surface lies within their convex hull, so this is exact under
-/// animation too. (Where creases are Chaikin's, it may leave the hull by a fraction of an edge.)
+/// animation too. (Where creases share their sharpness, it may leave the hull by a fraction of an
+/// edge.)
 /// The result is the same for whichever thread, and depends on nothing else. Does not allocate; any
 /// thread, with memory of its own. A frame of more than INT32_MAX vertices has no plan: 0 patches.
 ///
@@ -450,7 +451,8 @@ typedef struct limn_output {
     limn_position_format position_format;
     const float *box; ///< [2][3], min and max, for packed positions; NULL: the mesh's bounds in the
                       ///< bind pose. The surface never leaves the box of its control points
-                      ///< (Chaikin's creases may). On an axis without extent all is 0
+                      ///< (creases that share their sharpness may). On an axis without extent all
+                      ///< is 0
     void *normals; ///< normal of vertex 0 of the plan, aligned to 4 bytes, or to 2 if it has 2: in
                    ///< a stream of its own, or inside the vertices, with the same stride; NULL: no
                    ///< normals
