@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The points of the first level of subdivision, one by one: they belong to no patch. */
+/*
+ * The points of the first level of subdivision, one by one: they belong to no patch. Sums are
+ * relative to a control point of their own, so that what is lost does not grow with the mesh.
+ */
 #ifndef REFINE_BODY_H
 #define REFINE_BODY_H
 
@@ -10,11 +13,12 @@
 /// Reproducible in both families, as patches of either take the same points.
 static void refine_mesh(const limn_mesh *mesh, float *controls) {
     const uint32_t count = mesh->point_count - mesh->control_count;
-    const quad origin = quad_load_point(mesh->origin);
     const limn_file_term *at = mesh->terms;
     float *dst = controls + 3 * (size_t)mesh->control_count;
     for (uint32_t point = 0; point < count; point++, dst += 3) {
         const limn_file_term *const end = mesh->terms + mesh->stencils[point + 1];
+        const float *const first = at < end ? controls + 3 * (size_t)at->control : mesh->origin;
+        const quad origin = quad_load_point(first);
         quad sum = quad_splat(0);
         for (; at < end; at++) {
             const quad control = quad_load_point(controls + 3 * (size_t)at->control);
