@@ -3,14 +3,14 @@
 # Builds the runtime and test_threads with ThreadSanitizer and runs it; then once more with ranges that overlap, which it
 # must see.
 #
-#   sh threads_test.sh SOURCE_FOLDER WORK_FOLDER FILE.limn
+#   sh threads_test.sh SOURCE_FOLDER WORK_FOLDER FILE.limn...
 #
 # Exit status 77, which skips the test, where the compiler has no ThreadSanitizer or its programs cannot run.
 set -eu
 
 source_folder=$1
 work_folder=$2
-file=$3
+shift 2
 mkdir -p "$work_folder"
 cd "$work_folder"
 
@@ -32,8 +32,10 @@ cmake -S "$source_folder" -B build -G Ninja --log-level=WARNING -DCMAKE_C_COMPIL
 cmake --build build --target test_threads >log.txt 2>&1 || fail "cannot be built"
 TSAN_OPTIONS=halt_on_error=1
 export TSAN_OPTIONS
-build/tests/test_threads "$file" >log.txt 2>&1 || fail "a race, or other bytes"
-cat log.txt
-build/tests/test_threads "$file" overlap >log.txt 2>&1 && fail "ranges that overlap were not noticed"
+for file in "$@"; do
+    build/tests/test_threads "$file" >log.txt 2>&1 || fail "$file: a race, or other bytes"
+    cat log.txt
+done
+build/tests/test_threads "$1" overlap >log.txt 2>&1 && fail "ranges that overlap were not noticed"
 grep -q 'ThreadSanitizer: data race' log.txt || fail "no race was reported"
 echo "ranges that overlap are a race, as they should be"
