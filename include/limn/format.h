@@ -148,7 +148,8 @@ typedef struct limn_file_piece {
     uint16_t table_count;   ///< as for a class
 } limn_file_piece;
 
-/// One term of a point of the first level of subdivision.
+/// One term of a point of the first level of subdivision, which is c + sum of weight (control - c), c
+/// being the control of its first term; without terms, the origin of the mesh.
 typedef struct limn_file_term {
     uint32_t control;
     float weight;
