@@ -202,6 +202,13 @@ static bool span_plane(const double tangents[2][3], double least) {
     return a > least && b > least && length(cross) > 1e-3 * a * b;
 }
 
+/// How far two tangents reach across the longer of them.
+static double width(const double tangents[2][3]) {
+    double cross[3];
+    cross_product(tangents[0], tangents[1], cross);
+    return length(cross) / fmax(length(tangents[0]), length(tangents[1]));
+}
+
 /// The angle between a normal and the one that two tangents span.
 static double angle_between(const float normal[3], const double tangents[2][3]) {
     const double wide[3] = {normal[0], normal[1], normal[2]};
@@ -251,6 +258,8 @@ static void compare_normals(const limn_mesh *mesh, const answer *given, uint32_t
         }
         const double angle =
             angle_between(normals[(size_t)patch * row_count + row], tangents[other]);
+        comparison->largest_turn =
+            fmax(comparison->largest_turn, angle * width(tangents[other]) / comparison->diagonal);
         comparison->normal_count++;
         comparison->mean_angle += angle;
         if (!(angle <= comparison->largest_angle)) {

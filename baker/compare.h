@@ -15,6 +15,8 @@ typedef struct limni_comparison {
     uint64_t normal_count;            ///< compared, if the mesh has normals
     uint64_t degenerate_count;        ///< not compared: the tangents span next to nothing
     double largest_angle, mean_angle; ///< between normals, in radians
+    double largest_turn; ///< the largest way that such an angle moves the end of the tangents, from
+                         ///< the line along the longer of them, divided by the diagonal
     uint32_t largest_angle_face;
 } limni_comparison;
 
