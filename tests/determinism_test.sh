@@ -42,8 +42,8 @@ bake() {
     echo "status $status" >>"$name.txt"
 }
 
-# Bakes every mesh as it is, and mended with the other options; and those of the repository together, with both weights and
-# with Lomont's creases. File names are relative, so that the builds say the same words.
+# Bakes every mesh as it is, and mended with the other options, isolated; and those of the repository together, with both
+# and with Lomont's creases. File names are relative, so that the builds say the same words.
 bake_all() {
     build=$1
     shift
@@ -53,11 +53,11 @@ bake_all() {
     for mesh in "$@"; do
         name=$(basename "$(dirname "$mesh")")-$(basename "$mesh")
         bake "$build" "plain-$name" "$mesh"
-        bake "$build" "mended-$name" --repair --non-manifold split --weights warren --boundary edge-and-corner "$mesh"
+        bake "$build" "mended-$name" --repair --non-manifold split --weights warren --boundary edge-and-corner --isolate 1 "$mesh"
     done
-    for weights in loop warren; do
-        bake "$build" "$weights-all" --weights $weights --normals exact "$source_folder"/assets/*.obj "$source_folder"/assets/*.off
-    done
+    set -- "$source_folder"/assets/*.obj "$source_folder"/assets/*.off
+    bake "$build" dense-all --normals exact "$@"
+    bake "$build" isolated-all --normals exact --weights warren --isolate 1 "$@"
     bake "$build" lomont --creases lomont --normals exact "$source_folder"/assets/*.obj "$source_folder"/docs/box.obj
     cd "$source_folder"
 }
