@@ -223,7 +223,7 @@ typedef struct chosen {
 
 /// The terms of one patch.
 typedef struct lists {
-    term *ascending; ///< [control_count]; for pieces three times as many, and one
+    term *ascending; ///< [control_count]; for pieces four times as many, and one
     term *absolute;  ///< [LIMNI_PLAIN_TERMS] the same relative to nothing; NULL: not wanted
     term *folded;    ///< [LIMNI_PLAIN_TERMS]
 } lists;
@@ -323,6 +323,9 @@ static inline void sum_all_piece_tangents(assembly *a, const chosen *which, cons
     for (size_t p = 0; p < LIMNI_PIECE_COUNT; p++) {
         const limni_piece *const piece = &a->items[p];
         const uint32_t end = piece->tangents->counts[which->level];
+        if (end == 0) continue;
+        const terms absolute = list_terms(points->absolute, piece->columns,
+                                          piece->tangents->row_stride, points->buffer);
         uint32_t first = 0;
         for (size_t half = 0; half < 2 && p < corner_count;
              half++, first += LIMN_FORMAT_ROW_BLOCK) {
@@ -331,9 +334,11 @@ static inline void sum_all_piece_tangents(assembly *a, const chosen *which, cons
             const uint32_t next = corners[edge + 1 < corner_count ? edge + 1 : 0];
             const float *const origin = controls + 3 * (size_t)(start < next ? start : next);
             const uint32_t behind = first + LIMN_FORMAT_ROW_BLOCK;
-            sum_piece_tangents(piece, points, origin, first, end < behind ? end : behind, out);
+            sum_piece_tangents(piece, absolute, points->moved, origin, first,
+                               end < behind ? end : behind, out);
         }
-        sum_piece_tangents(piece, points, controls + 3 * (size_t)corners[0], first, end, out);
+        sum_piece_tangents(piece, absolute, points->moved, controls + 3 * (size_t)corners[0], first,
+                           end, out);
     }
 }
 
@@ -353,7 +358,8 @@ static inline void sum_pieces(assembly *a, const limni_run *run, const chosen *w
     }
     const piece_points points = {.relative = {relative, absolute},
                                  .absolute = {absolute, absolute + count},
-                                 .buffer = absolute + count};
+                                 .buffer = absolute + count,
+                                 .moved = absolute + 2 * count + 1};
     for (size_t p = 0; p < LIMNI_PIECE_COUNT; p++)
         sum_piece_positions(&a->items[p], &points, origin, which->level, &a->staged.positions);
     place_rows(a->layouts->position_copies, a->layouts->position_copy_counts[which->level],
@@ -436,12 +442,12 @@ static LIMNI_NOINLINE void evaluate_in_pieces(const limni_run *run, const limni_
         pieces.items[p] = limni_piece_of(run, p);
     clear_rows(&pieces.staged, LIMNI_PIECE_PLACES);
     if (run->slot_size == 1) {
-        _Alignas(16) term ascending[3 * LIMN_FORMAT_NARROW_SLOTS + 1];
+        _Alignas(16) term ascending[4 * LIMN_FORMAT_NARROW_SLOTS + 1];
         g.slot_size = 1;
         g.to.ascending = ascending;
         evaluate_patches(run, &g, from, target, false, &pieces);
     } else {
-        _Alignas(16) term ascending[3 * LIMN_FORMAT_CONTROLS_MAX + 1];
+        _Alignas(16) term ascending[4 * LIMN_FORMAT_CONTROLS_MAX + 1];
         g.slot_size = 2;
         g.to.ascending = ascending;
         evaluate_patches(run, &g, from, target, false, &pieces);

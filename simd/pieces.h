@@ -15,34 +15,24 @@ typedef struct piece_points {
     terms relative; ///< to the origin of the mesh
     terms absolute; ///< where there are normals
     term *buffer;   ///< [as many, and one] for the terms of a piece
+    term *moved;    ///< [as many] for the same relative to some other point
 } piece_points;
 
-/// The terms of a piece, in ascending order. Returns how many.
-static inline size_t list_terms(const piece_points *points, const uint16_t *columns,
-                                uint32_t row_stride) {
-    size_t count = 0;
+/// The terms of a piece, in ascending order.
+static inline terms list_terms(terms points, const uint16_t *columns, uint32_t row_stride,
+                               term *buffer) {
+    term *end = buffer;
     LIMNI_UNROLL_TWICE
-    for (const term *k = points->relative.begin; k != points->relative.end; k++) {
+    for (const term *k = points.begin; k != points.end; k++) {
         const uint32_t column = columns[k->column];
-        term *const dst = &points->buffer[count];
-        quad_store(dst, quad_load(k->point));
-        dst->column = column * row_stride;
-        count += column != LIMN_FORMAT_NO_COLUMN;
+        set_term(end, quad_load(k->point), column * row_stride);
+        end += column != LIMN_FORMAT_NO_COLUMN;
     }
-    return count;
+    return (terms){buffer, end};
 }
 
-/// The same relative to some other point.
-static inline size_t list_terms_from(const piece_points *points, const uint16_t *columns,
-                                     uint32_t row_stride, quad origin) {
-    size_t count = 0;
-    for (const term *k = points->absolute.begin; k != points->absolute.end; k++) {
-        const uint32_t column = columns[k->column];
-        set_term(&points->buffer[count], quad_subtract(quad_load_point(k->point), origin),
-                 column * row_stride);
-        count += column != LIMN_FORMAT_NO_COLUMN;
-    }
-    return count;
+static inline bool is_long(terms of) {
+    return of.end - of.begin > LIMNI_PLAIN_TERMS;
 }
 
 static inline void sum_piece_positions(const limni_piece *piece, const piece_points *points,
@@ -50,37 +40,48 @@ static inline void sum_piece_positions(const limni_piece *piece, const piece_poi
     const limni_segment segment = {.row = piece->first_place,
                                    .count = piece->positions->counts[level]};
     if (segment.count == 0) return;
-    const size_t count = list_terms(points, piece->columns, piece->positions->row_stride);
-    const patch p = {
-        .table = piece->table, .origin = origin, .all = {points->buffer, points->buffer + count}};
-    if (count > LIMNI_PLAIN_TERMS) {
+    const patch p = {.table = piece->table,
+                     .origin = origin,
+                     .all = list_terms(points->relative, piece->columns,
+                                       piece->positions->row_stride, points->buffer)};
+    if (is_long(p.all)) {
         sum_long_rows(&p, &segment, staged);
     } else {
         sum_rows(&p, &segment, staged);
     }
 }
 
+/// Terms relative to `origin`.
+static inline terms move_terms(terms absolute, const float *origin, term *buffer) {
+    term *end = buffer;
+    for (const term *k = absolute.begin; k != absolute.end; k++)
+        set_term(end++, quad_subtract(quad_load_point(k->point), quad_load_point(origin)),
+                 k->column);
+    return (terms){buffer, end};
+}
+
 /// Both tangents of places [first, end) of a piece, relative to `origin`.
-static inline void sum_piece_tangents(const limni_piece *piece, const piece_points *points,
+///
+/// absolute  terms of the piece
+/// moved     [as many]
+static inline void sum_piece_tangents(const limni_piece *piece, terms absolute, term *moved,
                                       const float *origin, uint32_t first, uint32_t end,
                                       vectors *const staged[2]) {
     static const float nowhere[3] = {0};
     if (first >= end) return;
-    const size_t count = list_terms_from(points, piece->columns, piece->tangents->row_stride,
-                                         quad_load_point(origin));
     const limni_segment segment = {.table_row = (uint16_t)first,
                                    .row = (uint16_t)(piece->first_place + first),
                                    .count = (uint16_t)(end - first)};
-    patch p = {.table = piece->table + piece->table_stride,
-               .origin = nowhere,
-               .all = {points->buffer, points->buffer + count}};
-    if (count > LIMNI_PLAIN_TERMS) {
+    patch p = {.table = piece->table + piece->table_stride, .origin = nowhere, .all = absolute};
+    if (is_long(absolute)) {
+        p.all = move_terms(absolute, origin, moved);
         sum_long_rows(&p, &segment, staged[0]);
         p.table += piece->table_stride;
         sum_long_rows(&p, &segment, staged[1]);
     } else {
-        const lanes none[3] = {lanes_zero(), lanes_zero(), lanes_zero()};
-        sum_tangent_rows(&p, piece->table_stride, none, &segment, staged);
+        const lanes from[3] = {lanes_splat(origin[0]), lanes_splat(origin[1]),
+                               lanes_splat(origin[2])};
+        sum_tangent_rows(&p, piece->table_stride, from, &segment, staged);
     }
 }
 
