@@ -2,6 +2,7 @@
 #include "../runtime/edge_error.h"
 #include "command.h"
 #include "limn/format.h"
+#include "sizes.h"
 
 #include <getopt.h>
 #include <jansson.h>
@@ -37,26 +38,6 @@ static uint64_t table_size(const limn_file_class *class) {
     return limn_file_table_size(class) * sizeof(float);
 }
 
-/// Bytes of the patches of a mesh: all that grows with its faces.
-static uint64_t patch_size(const limn_mesh *mesh) {
-    uint64_t size = mesh->run_count * sizeof(limn_file_run) + mesh->patch_count * sizeof(uint32_t);
-    size += (uint64_t)mesh->patch_count * mesh->domain->corner_count * sizeof *mesh->errors;
-    for (uint32_t r = 0; r < mesh->run_count; r++) {
-        const uint32_t controls = mesh->classes[mesh->runs[r].class_index].control_count;
-        const uint64_t slot_size = limn_file_slot_size(&mesh->classes[mesh->runs[r].class_index]);
-        size += (uint64_t)mesh->runs[r].patch_count * controls * (sizeof(uint32_t) + slot_size);
-    }
-    return size;
-}
-
-/// Bytes of a mesh's records and rings for the normals of its control points, 0 without normals.
-static uint64_t normals_size(const limn_mesh *mesh) {
-    uint64_t size = 0;
-    for (uint32_t c = 0; c < mesh->control_count && mesh->normals; c++)
-        size += sizeof *mesh->normals + mesh->normals[c].ring_count * sizeof *mesh->ring;
-    return size;
-}
-
 static int compare_floats(const void *a, const void *b) {
     const float left = *(const float *)a, right = *(const float *)b;
     return (left > right) - (left < right);
@@ -87,34 +68,6 @@ static uint64_t use_count(const limn_pack *pack, uint32_t class_index) {
     return count;
 }
 
-static uint64_t total_table_size(const limn_pack *pack) {
-    uint64_t size = 0;
-    for (uint32_t c = 0; c < pack->class_count; c++)
-        size += table_size(&pack->classes[c]);
-    for (uint32_t p = 0; p < pack->piece_count; p++)
-        size += limn_file_piece_table_size(&pack->pieces[p]) * sizeof(float);
-    return size;
-}
-
-/// Bytes of the columns of classes that are in pieces.
-static uint64_t total_columns_size(const limn_pack *pack) {
-    uint64_t size = 0;
-    for (uint32_t c = 0; c < pack->class_count; c++) {
-        if (pack->classes[c].depth == LIMN_FORMAT_PIECE_DEPTH)
-            size += LIMN_FORMAT_PIECE_COUNT * (1 + (uint64_t)pack->classes[c].control_count) *
-                    sizeof(uint16_t);
-    }
-    return size;
-}
-
-/// Bytes of the points of level 1 of an isolated mesh, in the bind pose, and of their stencils.
-static uint64_t points_size(const limn_mesh *mesh) {
-    const uint64_t count = mesh->point_count - mesh->control_count;
-    if (count == 0) return 0;
-    return count * 3 * sizeof *mesh->controls + (1 + count) * sizeof *mesh->stencils +
-           mesh->stencils[count] * sizeof *mesh->terms;
-}
-
 /// A string; of one that is not UTF-8, as file names may be, only the ASCII remains.
 static json_t *json_text(const char *text) {
     json_t *const string = json_string(text);
@@ -134,8 +87,8 @@ static json_t *describe_file(const limn_pack *pack) {
     json_t *const file = json_object();
     json_object_set_new(file, "version", json_integer(LIMN_FORMAT_VERSION));
     json_object_set_new(file, "size", json_size(pack->blob_size));
-    json_object_set_new(file, "table_size", json_size(total_table_size(pack)));
-    json_object_set_new(file, "columns_size", json_size(total_columns_size(pack)));
+    json_object_set_new(file, "table_size", json_size(limni_tables_size(pack)));
+    json_object_set_new(file, "columns_size", json_size(limni_columns_size(pack)));
     json_object_set_new(file, "class_count", json_integer(pack->class_count));
     json_object_set_new(file, "piece_count", json_integer(pack->piece_count));
     json_object_set_new(file, "bake", json_text(pack->info));
@@ -144,7 +97,7 @@ static json_t *describe_file(const limn_pack *pack) {
 
 static json_t *describe_mesh(const limn_mesh *mesh) {
     json_t *const object = json_object();
-    const uint64_t size = patch_size(mesh);
+    const uint64_t size = limni_patches_size(mesh);
     json_object_set_new(object, "name", json_text(mesh->name));
     json_object_set_new(object, "faces", json_integer(mesh->face_count));
     json_object_set_new(object, "control_points", json_integer(mesh->control_count));
@@ -153,8 +106,8 @@ static json_t *describe_mesh(const limn_mesh *mesh) {
     json_object_set_new(object, "bytes_per_face",
                         json_real(mesh->patch_count ? (double)size / mesh->patch_count : 0));
     json_object_set_new(object, "points", json_integer(mesh->point_count));
-    json_object_set_new(object, "points_size", json_size(points_size(mesh)));
-    json_object_set_new(object, "normals_size", json_size(normals_size(mesh)));
+    json_object_set_new(object, "points_size", json_size(limni_points_size(mesh)));
+    json_object_set_new(object, "normals_size", json_size(limni_normals_size(mesh)));
     json_object_set_new(object, "class_count", json_integer(mesh->run_count));
     double medians[LIMN_LEVEL_MAX];
     json_t *const errors = json_array();
@@ -226,21 +179,21 @@ static void print_errors(const limn_pack *pack) {
 
 static void print_text(const char *path, const limn_pack *pack) {
     printf("%s: version %u, %zu bytes, of which %llu in the tables of %u classes\n", path,
-           LIMN_FORMAT_VERSION, pack->blob_size, (unsigned long long)total_table_size(pack),
+           LIMN_FORMAT_VERSION, pack->blob_size, (unsigned long long)limni_tables_size(pack),
            pack->class_count);
     if (pack->piece_count)
         printf("which are made of %u pieces, with %llu bytes for their columns\n",
-               pack->piece_count, (unsigned long long)total_columns_size(pack));
+               pack->piece_count, (unsigned long long)limni_columns_size(pack));
     printf("baked with %s\n\n", pack->info);
     printf("%-24s %10s %10s %12s %10s %12s %8s\n", "mesh", "faces", "controls", "patch bytes",
            "bytes/face", "point bytes", "classes");
     for (uint32_t m = 0; m < pack->mesh_count; m++) {
         const limn_mesh mesh = limn_pack_mesh(pack, m);
-        const uint64_t size = patch_size(&mesh);
+        const uint64_t size = limni_patches_size(&mesh);
         printf("%-24s %10u %10u %12llu %10.1f %12llu %8u\n", mesh.name, mesh.face_count,
                mesh.control_count, (unsigned long long)size,
                mesh.patch_count ? (double)size / mesh.patch_count : 0,
-               (unsigned long long)points_size(&mesh), mesh.run_count);
+               (unsigned long long)limni_points_size(&mesh), mesh.run_count);
     }
     print_errors(pack);
     printf("\n%6s  %-14s %14s %10s %10s\n", "class", "valences", "control points", "bytes",

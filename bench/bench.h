@@ -16,6 +16,7 @@ extern "C" {
 
 int bench_bake(int argc, char **argv);
 int bench_dolly(int argc, char **argv);
+int bench_isolation(int argc, char **argv);
 int bench_kernels(int argc, char **argv);
 int bench_peers(int argc, char **argv);
 int bench_plan(int argc, char **argv);
@@ -23,6 +24,9 @@ int bench_weights(int argc, char **argv);
 
 /// Seconds of a clock that only goes forward.
 double bench_seconds(void);
+
+/// Seconds that this thread ran: for samples of a millisecond or so, which others may interrupt.
+double bench_thread_seconds(void);
 
 /// The median; reorders the values.
 double bench_median(double *values, uint32_t count);

@@ -7,15 +7,12 @@
 #include "arguments.h"
 #include "bench.h"
 
-#include "mixes.h"
 #include "peak.h"
+#include "sampler.h"
 
 #include "limn/format.h"
 #include "limn/limn.h"
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,43 +55,17 @@ static const char help[] =
 enum {
     VARIANT_MAX = 8,
     TORUS_SIDE = 64,
-    COLD_PATCHES = 64,
-    COLD_PASSES = 8,
     ROUND_MAX = 1000,
     MODE_COUNT = 4 ///< class order or shuffled, warm or cold
 };
 
 typedef struct options {
     uint32_t isa_mask;
-    uint32_t output_mask; ///< bit o: outputs[o]
+    uint32_t output_mask; ///< bit o: bench_outputs[o]
     bool all_modes;
     uint32_t rounds;
-    double sample_seconds;
-    size_t buffer_size; ///< a multiple of 4096
     const char *csv;
 } options;
-
-/// What is written. A further output is one entry.
-static const struct output_kind {
-    const char *name;
-    uint32_t vertex_size;   ///< bytes
-    uint32_t sums;          ///< multiply-adds per row and control point
-    bool all_modes;         ///< else only in class order and warm
-    uint32_t normal_offset; ///< of the normal in its vertex; 0: normals have half of the buffer
-    limn_output form;       ///< without addresses; normal_stride 0: no normals
-} outputs[] = {
-    {"position", 12, 3, .all_modes = true, .form = {.stride = 12}},
-    {"position+normal", 24, 9, .all_modes = true, .form = {.stride = 12, .normal_stride = 12}},
-    {"interleaved", 24, 9, .normal_offset = 12, .form = {.stride = 24, .normal_stride = 24}},
-    {"packed", 12, 9, .normal_offset = 8,
-     .form = {.stride = 12,
-              .normal_stride = 12,
-              .position_format = LIMN_POSITION_UNORM16X4,
-              .normal_format = LIMN_NORMAL_OCT16X2}},
-    {"streaming", 12, 3, .form = {.stride = 12, .streaming = true}},
-};
-
-enum { OUTPUT_COUNT = sizeof outputs / sizeof *outputs };
 
 typedef struct variant {
     const limn_kernels *kernels;
@@ -116,19 +87,15 @@ typedef struct cost {
 /// One figure.
 typedef struct cell {
     variant *variant;
-    const mix *mix;
-    const struct output_kind *output;
-    uint32_t level;
-    bool is_shuffled, is_cold;
-    double patch_count, control_count; ///< of all samples
-    cost *samples;                     ///< [rounds]
+    bench_load load;
+    bool is_cold;
+    cost *samples; ///< [rounds]
     cost median;
 } cell;
 
 typedef struct session {
     options options;
-    unsigned char *buffer;
-    uint64_t random;
+    bench_sampler sampler;
     variant variants[VARIANT_MAX];
     uint32_t variant_count, mix_count, cell_count;
     mix *mixes;
@@ -138,137 +105,18 @@ typedef struct session {
 // -------------------------------------------------------------------------------------------------
 // Measuring
 
-/// Part of the patches of a mix, in the order of a cell.
-typedef struct span {
-    uint32_t first, count;
-} span;
-
-static uint32_t patch_at(const cell *c, uint32_t position) {
-    return c->is_shuffled ? c->mix->shuffled[position] : position;
-}
-
-static const limn_file_class *class_of(const cell *c, uint32_t position) {
-    const bench_mix *const base = &c->mix->base;
-    return &base->mesh.classes[base->patch_classes[patch_at(c, position)]];
-}
-
-/// Where a patch goes that is the `cursor`th in the buffer. An output begins with the first vertex
-/// of the plan, which does not exist here.
-static limn_output output_at(const session *s, const cell *c, uint32_t patch, uint32_t cursor) {
-    const struct output_kind *const kind = c->output;
-    const uint32_t rows = c->mix->base.mesh.domain->row_counts[c->level];
-    const uintptr_t start = (uintptr_t)s->buffer;
-    const uintptr_t vertex = (uintptr_t)rows * cursor - (uintptr_t)rows * patch;
-    const uintptr_t normals =
-        start + (kind->normal_offset ? kind->normal_offset : s->options.buffer_size / 2);
-    limn_output output = kind->form;
-    output.vertices = (void *)(start + vertex * kind->form.stride);
-    if (kind->form.normal_stride == 0) return output;
-    output.normals = (void *)(normals + vertex * kind->form.normal_stride);
-    output.control_normals = c->mix->base.control_normals;
-    return output;
-}
-
-/// Evaluates a span into the buffer, from its start again whenever it is full.
-static void evaluate_span(const session *s, const cell *c, const limn_plan *plan, span part) {
-    const uint32_t rows = plan->mesh->domain->row_counts[c->level];
-    const uint32_t capacity =
-        (uint32_t)(s->options.buffer_size / ((size_t)rows * c->output->vertex_size));
-    const uint32_t step = c->is_shuffled ? 1 : capacity;
-    const uint32_t end = part.first + part.count;
-    uint32_t cursor = 0;
-    for (uint32_t position = part.first; position < end; position += step) {
-        const uint32_t patch = patch_at(c, position);
-        const uint32_t count = end - position < step ? end - position : step;
-        const limn_output output = output_at(s, c, patch, cursor);
-        limn_evaluate(plan, plan->mesh->controls, patch, patch + count, &output);
-        cursor = cursor + 2 * step <= capacity ? cursor + step : 0;
-    }
-}
-
-/// Takes memory out of all caches.
-static void evict(const void *start, size_t size) {
-#ifdef __SSE2__
-    for (size_t offset = 0; offset < size; offset += 64)
-        _mm_clflush((const char *)start + offset);
-    _mm_mfence();
-#elif defined(__aarch64__)
-    for (size_t offset = 0; offset < size; offset += 64)
-        __asm__ volatile("dc civac, %0" : : "r"((const char *)start + offset) : "memory");
-    __asm__ volatile("dsb ish" : : : "memory");
-#else
-    enum { SWEEP = 128 << 20 };
-    (void)start, (void)size;
-    static unsigned char sweep[SWEEP];
-    for (size_t offset = 0; offset < SWEEP; offset += 64)
-        ((volatile unsigned char *)sweep)[offset]++;
-#endif
-}
-
-static void evict_tables(const cell *c, span part) {
-    const limn_mesh *const mesh = &c->mix->base.mesh;
-    const limn_file_class *last = NULL;
-    for (uint32_t p = part.first; p < part.first + part.count; p++) {
-        const limn_file_class *const class = class_of(c, p);
-        if (class != last)
-            evict(mesh->tables + class->table_offset / sizeof(float),
-                  (size_t)limn_file_table_size(class) * sizeof(float));
-        last = class;
-    }
-}
-
-static void count_span(cell *c, span part) {
-    c->patch_count += part.count;
-    for (uint32_t p = part.first; p < part.first + part.count; p++)
-        c->control_count += class_of(c, p)->control_count;
-}
-
-static double sample_warm(const session *s, cell *c, const limn_plan *plan) {
-    const span all = {0, plan->patch_count};
-    const uint32_t repeats = 1 + 4096 / plan->patch_count;
-    uint64_t passes = 0;
-    double elapsed;
-    count_span(c, all);
-    evaluate_span(s, c, plan, all);
-    const double start = bench_seconds();
-    do {
-        for (uint32_t r = 0; r < repeats; r++)
-            evaluate_span(s, c, plan, all);
-        passes += repeats;
-        elapsed = bench_seconds() - start;
-    } while (elapsed < s->options.sample_seconds);
-    return elapsed / ((double)passes * all.count);
-}
-
-static double sample_cold(session *s, cell *c, const limn_plan *plan) {
-    const uint32_t patches = plan->patch_count;
-    const uint32_t count = patches < COLD_PATCHES ? patches : COLD_PATCHES;
-    double elapsed = 0;
-    for (int pass = 0; pass < COLD_PASSES; pass++) {
-        const span part = {bench_random(&s->random, patches - count + 1), count};
-        count_span(c, part);
-        evaluate_span(s, c, plan, part);
-        evict_tables(c, part);
-        const double start = bench_seconds();
-        evaluate_span(s, c, plan, part);
-        elapsed += bench_seconds() - start;
-    }
-    return elapsed / ((double)COLD_PASSES * count);
-}
-
 static void measure_peaks(const session *s, variant *v) {
-    const double seconds = s->options.sample_seconds / 4;
+    const bench_sampler *const sampler = &s->sampler;
+    const double seconds = sampler->seconds / 4;
     v->compute_rate = bench_peak_compute(v->peak, seconds);
     v->store_rate =
-        bench_peak_store(v->peak, (float *)(void *)s->buffer, s->options.buffer_size, seconds);
+        bench_peak_store(v->peak, (float *)(void *)sampler->buffer, sampler->buffer_size, seconds);
 }
 
 static void measure_cell(session *s, cell *c, uint32_t round) {
-    limn_mesh mesh = c->mix->base.mesh;
-    mesh.kernels = c->variant->kernels;
-    const limn_plan plan = limn_plan_uniform(&mesh, c->level);
-    if (c->level == 0) measure_peaks(s, c->variant);
-    const double seconds = c->is_cold ? sample_cold(s, c, &plan) : sample_warm(s, c, &plan);
+    if (c->load.level == 0) measure_peaks(s, c->variant);
+    const double seconds = c->is_cold ? bench_sample_cold(&s->sampler, &c->load)
+                                      : bench_sample_warm(&s->sampler, &c->load);
     c->samples[round] = (cost){.seconds = seconds,
                                .multiply_adds = seconds * c->variant->compute_rate,
                                .bytes = seconds * c->variant->store_rate};
@@ -303,21 +151,21 @@ static const char *family_name(const limn_kernels *kernels) {
 }
 
 /// Whether the mesh has what an output needs.
-static bool is_possible(const mix *m, const struct output_kind *output) {
+static bool is_possible(const mix *m, const bench_output *output) {
     return output->form.normal_stride == 0 || m->base.control_normals;
 }
 
 static double rows_of(const cell *c) {
-    return c->mix->base.mesh.domain->row_counts[c->level];
+    return c->load.mix->mesh.domain->row_counts[c->load.level];
 }
 
 static double compute_share(const cell *c) {
-    const double controls = c->control_count / c->patch_count;
-    return rows_of(c) * c->output->sums * controls / c->median.multiply_adds;
+    const double controls = c->load.control_count / c->load.patch_count;
+    return rows_of(c) * c->load.output->sums * controls / c->median.multiply_adds;
 }
 
 static double store_share(const cell *c) {
-    return rows_of(c) * c->output->vertex_size / c->median.bytes;
+    return rows_of(c) * c->load.output->vertex_size / c->median.bytes;
 }
 
 static const cell *first_cell_of(const session *s, const variant *v) {
@@ -343,7 +191,7 @@ static void print_peaks(const session *s) {
 static void print_row(const cell *cells) {
     const cell *const finest = &cells[LIMN_LEVEL_MAX];
     printf("%-6s %-12s %-8s %-4s", limn_kernels_name(finest->variant->kernels),
-           family_name(finest->variant->kernels), finest->is_shuffled ? "shuffled" : "class",
+           family_name(finest->variant->kernels), finest->load.order ? "shuffled" : "class",
            finest->is_cold ? "cold" : "warm");
     for (int level = 0; level < LIMN_LEVEL_COUNT; level++)
         printf(" %7.1f", cells[level].median.seconds * 1e9);
@@ -354,21 +202,22 @@ static void print_row(const cell *cells) {
            100 * store_share(finest));
 }
 
-static void print_mix(const session *s, const mix *m, const struct output_kind *output) {
+static void print_mix(const session *s, const mix *m, const bench_output *output) {
     if (!is_possible(m, output)) {
         printf("\n%s, %s: the file has no normals\n", m->base.name, output->name);
         return;
     }
     double controls = 0;
     for (uint32_t p = 0; p < m->base.mesh.patch_count; p++)
-        controls += m->base.mesh.classes[m->base.patch_classes[p]].control_count;
+        controls += bench_class_of(&m->base, p)->control_count;
     printf("\n%s, %s: %u patches, %u classes, %.2f control points per patch\n", m->base.name,
            output->name, m->base.mesh.patch_count, m->base.mesh.run_count,
            controls / m->base.mesh.patch_count);
     printf("%-6s %-12s %-8s %-4s %39s   %29s  %11s %11s\n", "isa", "family", "order", "",
            "ns per patch, level 0 to 4", "% of peak, level 0 to 4", "Mvertices/s", "% of stores");
     for (uint32_t c = 0; c < s->cell_count; c += LIMN_LEVEL_COUNT) {
-        if (s->cells[c].mix == m && s->cells[c].output == output) print_row(&s->cells[c]);
+        if (s->cells[c].load.mix == &m->base && s->cells[c].load.output == output)
+            print_row(&s->cells[c]);
     }
 }
 
@@ -381,9 +230,9 @@ static void write_csv(const session *s, FILE *file) {
     for (uint32_t i = 0; i < s->cell_count; i++) {
         const cell *const c = &s->cells[i];
         const limn_kernels *const kernels = c->variant->kernels;
-        fprintf(file, "%s,%s,%s,%s,%s,%s,%u,%.3f,%.4g,%.4g,%.4f,%.4g,%.4f\n", c->mix->base.name,
-                c->output->name, limn_kernels_name(kernels), family_name(kernels),
-                c->is_shuffled ? "shuffled" : "class", c->is_cold ? "cold" : "warm", c->level,
+        fprintf(file, "%s,%s,%s,%s,%s,%s,%u,%.3f,%.4g,%.4g,%.4f,%.4g,%.4f\n", c->load.mix->name,
+                c->load.output->name, limn_kernels_name(kernels), family_name(kernels),
+                c->load.order ? "shuffled" : "class", c->is_cold ? "cold" : "warm", c->load.level,
                 c->median.seconds * 1e9, rows_of(c) / c->median.seconds,
                 c->median.multiply_adds / c->median.seconds, compute_share(c),
                 c->median.bytes / c->median.seconds, store_share(c));
@@ -426,25 +275,25 @@ static void shuffle(mix *m) {
 
 static bool add_mixes(session *s, char **paths, int path_count) {
     s->mixes = allocate((size_t)path_count + 2, sizeof *s->mixes);
-    bool good = bench_mix_regular(&s->mixes[s->mix_count++].base, TORUS_SIDE);
-    good = good && bench_mix_worst(&s->mixes[s->mix_count++].base, TORUS_SIDE);
+    bool good = bench_mix_regular(&s->mixes[s->mix_count++].base, TORUS_SIDE, LIMN_ISOLATE_NEVER);
+    good = good && bench_mix_worst(&s->mixes[s->mix_count++].base, TORUS_SIDE, LIMN_ISOLATE_NEVER);
     for (int p = 0; p < path_count && good; p++)
-        good = bench_mix_file(&s->mixes[s->mix_count++].base, paths[p]);
+        good = bench_mix_file(&s->mixes[s->mix_count++].base, paths[p], LIMN_ISOLATE_NEVER);
     for (uint32_t m = 0; m < s->mix_count && good; m++)
         shuffle(&s->mixes[m]);
     return good;
 }
 
 /// All levels of a row of the table, one after the other.
-static void add_levels(session *s, const mix *m, const struct output_kind *output, variant *v,
-                       int mode) {
+static void add_levels(session *s, const mix *m, const bench_output *output, variant *v, int mode) {
     for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++) {
         s->cells[s->cell_count++] = (cell){
             .variant = v,
-            .mix = m,
-            .output = output,
-            .level = level,
-            .is_shuffled = mode & 1,
+            .load = {.mix = &m->base,
+                     .kernels = v->kernels,
+                     .output = output,
+                     .level = level,
+                     .order = mode & 1 ? m->shuffled : NULL},
             .is_cold = mode & 2,
             .samples = allocate(s->options.rounds, sizeof(cost)),
         };
@@ -452,7 +301,7 @@ static void add_levels(session *s, const mix *m, const struct output_kind *outpu
 }
 
 /// All rows of one part of the table.
-static void add_rows(session *s, const mix *m, const struct output_kind *output) {
+static void add_rows(session *s, const mix *m, const bench_output *output) {
     const int modes = output->all_modes || s->options.all_modes ? MODE_COUNT : 1;
     if (!is_possible(m, output)) return;
     for (uint32_t v = 0; v < s->variant_count; v++) {
@@ -462,12 +311,12 @@ static void add_rows(session *s, const mix *m, const struct output_kind *output)
 }
 
 static void add_cells(session *s) {
-    s->cells = allocate((size_t)s->mix_count * OUTPUT_COUNT * s->variant_count * MODE_COUNT *
+    s->cells = allocate((size_t)s->mix_count * BENCH_OUTPUT_COUNT * s->variant_count * MODE_COUNT *
                             LIMN_LEVEL_COUNT,
                         sizeof *s->cells);
     for (uint32_t m = 0; m < s->mix_count; m++) {
-        for (int o = 0; o < OUTPUT_COUNT; o++) {
-            if (s->options.output_mask >> o & 1) add_rows(s, &s->mixes[m], &outputs[o]);
+        for (int o = 0; o < BENCH_OUTPUT_COUNT; o++) {
+            if (s->options.output_mask >> o & 1) add_rows(s, &s->mixes[m], &bench_outputs[o]);
         }
     }
 }
@@ -481,14 +330,14 @@ static void destroy(session *s) {
     }
     free(s->cells);
     free(s->mixes);
-    free(s->buffer);
+    free(s->sampler.buffer);
 }
 
 /// csv  NULL: none
 static bool run(session *s, char **paths, int path_count, FILE *csv) {
-    s->buffer = aligned_alloc(4096, s->options.buffer_size);
+    s->sampler.buffer = aligned_alloc(4096, s->sampler.buffer_size);
     add_variants(s);
-    if (!s->buffer || s->variant_count == 0) {
+    if (!s->sampler.buffer || s->variant_count == 0) {
         fprintf(stderr, "limn-bench: this CPU has none of these instruction sets\n");
         return false;
     }
@@ -497,11 +346,11 @@ static bool run(session *s, char **paths, int path_count, FILE *csv) {
     measure(s);
     bench_print_conditions(stdout);
     printf("%u rounds; vertices go to a buffer of %zu KiB\n", s->options.rounds,
-           s->options.buffer_size / 1024);
+           s->sampler.buffer_size / 1024);
     print_peaks(s);
     for (uint32_t m = 0; m < s->mix_count; m++) {
-        for (int o = 0; o < OUTPUT_COUNT; o++) {
-            if (s->options.output_mask >> o & 1) print_mix(s, &s->mixes[m], &outputs[o]);
+        for (int o = 0; o < BENCH_OUTPUT_COUNT; o++) {
+            if (s->options.output_mask >> o & 1) print_mix(s, &s->mixes[m], &bench_outputs[o]);
         }
     }
     if (csv) write_csv(s, csv);
@@ -517,7 +366,7 @@ static const char *isa_name(uint32_t bit) {
 }
 
 static const char *output_name(uint32_t bit) {
-    return bit < OUTPUT_COUNT ? outputs[bit].name : NULL;
+    return bit < BENCH_OUTPUT_COUNT ? bench_outputs[bit].name : NULL;
 }
 
 /// The bits that a list names; 0 if a name is not known.
@@ -537,7 +386,8 @@ static uint32_t parse_list(const char *list, bit_name *name_of) {
 }
 
 static bool parse_option(int option, void *parsed) {
-    options *const to = parsed;
+    session *const s = parsed;
+    options *const to = &s->options;
     uint32_t kib;
     switch (option) {
     case 'i':
@@ -553,11 +403,11 @@ static bool parse_option(int option, void *parsed) {
         return bench_parse_range(optarg, 1, ROUND_MAX, &to->rounds);
     case 'q':
         to->rounds = 3;
-        to->sample_seconds = 3e-4;
+        s->sampler.seconds = 3e-4;
         return true;
     case 'b':
         if (!bench_parse_range(optarg, 4, 1 << 20, &kib) || kib % 4 != 0) return false;
-        to->buffer_size = 1024 * (size_t)kib;
+        s->sampler.buffer_size = 1024 * (size_t)kib;
         return true;
     case 'c':
         to->csv = optarg;
@@ -578,11 +428,10 @@ int bench_kernels(int argc, char **argv) {
                                           {"help", no_argument, NULL, 'h'},
                                           {0}};
     session s = {.options = {.isa_mask = LIMN_ISA_ALL,
-                             .output_mask = (1u << OUTPUT_COUNT) - 1,
-                             .rounds = 25,
-                             .sample_seconds = 1e-3,
-                             .buffer_size = 64 * 1024}};
-    const int status = bench_read_options(argc, argv, help, names, parse_option, &s.options);
+                             .output_mask = (1u << BENCH_OUTPUT_COUNT) - 1,
+                             .rounds = 25},
+                 .sampler = {.buffer_size = 64 * 1024, .seconds = 1e-3}};
+    const int status = bench_read_options(argc, argv, help, names, parse_option, &s);
     if (status >= 0) return status;
     limni_output_file csv;
     if (!bench_results_open(&csv, s.options.csv)) return 1;

@@ -13,6 +13,7 @@ static const struct {
     {"bake", bench_bake,
      "time to bake, peak memory, and stored bytes beside OpenSubdiv's stencils"},
     {"dolly", bench_dolly, "how far levels of detail move the surface, frame by frame, as CSV"},
+    {"isolation", bench_isolation, "bytes and time per face of isolated meshes beside dense ones"},
     {"kernels", bench_kernels,
      "time per patch of every kernel, and its share of what this core can do at most"},
     {"peers", bench_peers,
@@ -28,7 +29,7 @@ static int print_help(FILE *stream, int status) {
     fprintf(stream,
             "usage: limn-bench NAME [OPTIONS]\n       limn-bench NAME --help\n\nbenchmarks:\n");
     for (int b = 0; b < BENCH_COUNT; b++)
-        fprintf(stream, "  %-8s %s\n", benches[b].name, benches[b].summary);
+        fprintf(stream, "  %-10s %s\n", benches[b].name, benches[b].summary);
     return status;
 }
 

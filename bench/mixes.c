@@ -146,15 +146,14 @@ static bool add_normals(bench_mix *mix) {
 }
 
 static bool open_mix(bench_mix *mix, const char *name, const void *blob, size_t size) {
-    limn_pack pack;
-    const limn_result result = limn_pack_open(&pack, blob, size);
+    const limn_result result = limn_pack_open(&mix->pack, blob, size);
     if (result != LIMN_OK) {
         fprintf(stderr, "limn-bench: %s: %s\n", name, limn_result_text(result));
         return false;
     }
-    if (pack.mesh_count == 0) return false;
+    if (mix->pack.mesh_count == 0) return false;
     snprintf(mix->name, sizeof mix->name, "%s", name);
-    mix->mesh = limn_pack_mesh(&pack, 0);
+    mix->mesh = limn_pack_mesh(&mix->pack, 0);
     if (mix->mesh.normals && !add_normals(mix)) return false;
     mix->patch_classes = malloc((mix->mesh.patch_count + 1) * sizeof *mix->patch_classes);
     for (uint32_t r = 0; r < mix->mesh.run_count && mix->patch_classes; r++) {
@@ -175,38 +174,39 @@ static bool bake_mix(bench_mix *mix, const char *name, limn_bake_status added) {
     return false;
 }
 
-static bool bake_torus(bench_mix *mix, const char *name, const torus *t) {
+static bool bake_torus(bench_mix *mix, const char *name, const torus *t, limn_isolate isolate) {
     const limn_bake_mesh mesh = {.name = name,
                                  .positions = t->positions,
                                  .position_count = t->point_count,
                                  .face_count = t->face_count,
                                  .face_indices = t->corners};
-    mix->baker = limn_baker_create(&(limn_bake_desc){.normals = LIMN_NORMALS_EXACT});
+    mix->baker =
+        limn_baker_create(&(limn_bake_desc){.normals = LIMN_NORMALS_EXACT, .isolate = isolate});
     return bake_mix(mix, name,
                     mix->baker ? limn_baker_add_mesh(mix->baker, &mesh) : LIMN_BAKE_MEMORY);
 }
 
-bool bench_mix_regular(bench_mix *mix, uint32_t side) {
+bool bench_mix_regular(bench_mix *mix, uint32_t side, limn_isolate isolate) {
     torus t;
     *mix = (bench_mix){0};
-    const bool good = torus_create(&t, side) && bake_torus(mix, "regular", &t);
+    const bool good = torus_create(&t, side) && bake_torus(mix, "regular", &t, isolate);
     torus_destroy(&t);
     return good;
 }
 
-bool bench_mix_worst(bench_mix *mix, uint32_t side) {
+bool bench_mix_worst(bench_mix *mix, uint32_t side, limn_isolate isolate) {
     torus t;
     *mix = (bench_mix){0};
     bool good = torus_create(&t, side);
     if (good) {
         shake(&t);
-        good = bake_torus(mix, "worst", &t);
+        good = bake_torus(mix, "worst", &t, isolate);
     }
     torus_destroy(&t);
     return good;
 }
 
-bool bench_mix_file(bench_mix *mix, const char *path) {
+bool bench_mix_file(bench_mix *mix, const char *path, limn_isolate isolate) {
     char error[512];
     *mix = (bench_mix){0};
     const char *const slash = strrchr(path, '/');
@@ -219,6 +219,7 @@ bool bench_mix_file(bench_mix *mix, const char *path) {
         return false;
     }
     mix->baker = limn_baker_create(&(limn_bake_desc){.normals = LIMN_NORMALS_EXACT,
+                                                     .isolate = isolate,
                                                      .repair = LIMN_REPAIR_ALL,
                                                      .non_manifold = LIMN_NON_MANIFOLD_SPLIT,
                                                      .note = bench_note});

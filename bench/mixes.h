@@ -10,7 +10,8 @@
 
 typedef struct bench_mix {
     char name[32];
-    limn_mesh mesh;
+    limn_pack pack;
+    limn_mesh mesh;          ///< the first of the pack
     uint32_t *patch_classes; ///< [patch_count] indices into mesh.classes
     float *control_normals;  ///< of the bind pose; NULL: the mesh has no normals
     limn_baker *baker;       ///< owns the blob, if it was baked here
@@ -18,13 +19,13 @@ typedef struct bench_mix {
 } bench_mix;
 
 /// A torus of `side` by `side` control points, all of valence 6: one class.
-bool bench_mix_regular(bench_mix *mix, uint32_t side);
+bool bench_mix_regular(bench_mix *mix, uint32_t side, limn_isolate isolate);
 
 /// The same torus with edges flipped at random, valences 4 to 9: neighbours rarely share a class.
-bool bench_mix_worst(bench_mix *mix, uint32_t side);
+bool bench_mix_worst(bench_mix *mix, uint32_t side, limn_isolate isolate);
 
-/// A mesh that is baked first, with normals, or the first one of a .limn file.
-bool bench_mix_file(bench_mix *mix, const char *path);
+/// A mesh that is baked first, with normals, or the first one of a .limn file, as it was baked.
+bool bench_mix_file(bench_mix *mix, const char *path, limn_isolate isolate);
 
 void bench_mix_destroy(bench_mix *mix);
 

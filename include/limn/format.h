@@ -183,6 +183,12 @@ static inline uint64_t limn_file_table_size(const limn_file_class *file_class) {
            limn_file_row_stride(file_class);
 }
 
+/// Words of the columns of a class in pieces; 0 of one with a table.
+static inline uint64_t limn_file_columns_size(const limn_file_class *file_class) {
+    if (file_class->depth != LIMN_FORMAT_PIECE_DEPTH) return 0;
+    return LIMN_FORMAT_PIECE_COUNT * (1 + (uint64_t)file_class->control_count);
+}
+
 static inline uint32_t limn_file_piece_stride(const limn_file_piece *piece) {
     return piece->kind ? 48 : 40;
 }

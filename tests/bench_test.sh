@@ -1,0 +1,35 @@
+#!/bin/sh
+# limn-bench: that benchmarks run, and what they write; not how fast anything is.
+# usage: bench_test.sh LIMN_BENCH LIMN ASSETS WORK_DIR
+set -u
+bench=$1 limn=$2 assets=$3 work=$4
+failed=0
+
+# expect NAME COMMAND...
+expect() {
+    name=$1
+    shift
+    if "$@"; then return; fi
+    echo "failed: $name"
+    failed=1
+}
+
+rm -rf "$work" && mkdir -p "$work" && cd "$work" || exit 1
+
+# Three meshes, both ways, of 2 families, 2 outputs, 2 kinds of tables and 5 levels
+expect isolation "$bench" isolation --quick --rounds 1 --csv isolation.csv "$assets/imp.obj" >isolation.txt
+expect "figures" [ "$(grep -c '^[a-z.]*,[0-9]*,[a-z]*,' isolation.csv)" = 240 ]
+expect "one value per column" [ "$(grep -v '^#' isolation.csv | awk -F, '{ print NF }' | sort -u)" = 16 ]
+expect "every figure is a time" [ "$(awk -F, '/^[a-z.]*,[0-9]/ && $15 <= 0' isolation.csv)" = "" ]
+expect "tables, as limn info counts them" sh -c "
+    '$limn' bake -q --isolate 1 '$assets/imp.obj' -o imp.limn &&
+    size=\$('$limn' info --json imp.limn | sed -n 's/.*\"table_size\": \([0-9]*\),.*/\1/p' | head -n 1) &&
+    grep -q \"^imp.obj,[0-9]*,isolated,[0-9]*,[0-9]*,\$size,\" isolation.csv"
+
+rm isolation.csv
+expect "a baked mesh is refused" sh -c "! '$bench' isolation --quick --csv isolation.csv imp.limn 2>error.txt"
+expect "and named" grep -q imp.limn error.txt
+expect "no results are left" [ ! -e isolation.csv ]
+expect "a wrong option" sh -c "'$bench' isolation --rounds 0 2>error.txt; [ \$? = 2 ]"
+expect "is named" grep -q -- --rounds error.txt
+exit $failed
