@@ -122,9 +122,9 @@ static uint64_t print_column(uint64_t hash, const float *column, const uint16_t 
 /// The columns of one slot, a row each, for all tables.
 typedef float slot_columns[3][ROW_COUNT];
 
-/// The columns of a slot along one edge, in grid steps of the depth. The neighbour has the positions
-/// in the opposite order, and the tangents with the opposite sign as well; they are not those of
-/// corners.
+/// The columns of a slot along one edge, in grid steps of the depth. The neighbour has the
+/// positions in the opposite order, and the tangents with the opposite sign as well; they are not
+/// those of corners.
 static limni_edge_print print_edge(float (*columns)[ROW_COUNT], uint32_t table_count, uint32_t step,
                                    uint32_t edge, bool along) {
     const uint16_t *const rows = limn_domain_get(LIMN_DOMAIN_TRIANGLE)->edge_rows[edge];
@@ -228,8 +228,8 @@ static void fill_slot(const class_maker *maker, uint32_t slot, uint32_t column_i
     }
 }
 
-/// The far end of the half edge that starts at the corner of a piece is new, and has tangents, which
-/// go on along the edge.
+/// The far end of the half edge that starts at the corner of a piece is new, and has tangents,
+/// which go on along the edge.
 static limn_bake_status add_end_tangents(limni_context *context, const limni_rules *rules,
                                          const limni_neighbourhood *neighbourhood,
                                          limni_fixed *tangents, size_t table_size) {

@@ -79,7 +79,8 @@ static bool has_comparable_normals(const limni_star *star, bool sided) {
     }
 }
 
-/// Finds which control points have normals that can be compared. Those that were split have several.
+/// Finds which control points have normals that can be compared. Those that were split have
+/// several.
 static limn_bake_status find_comparable(limni_context *context, const limni_mesh *source,
                                         const limni_opensubdiv_mesh *how, bool **comparable) {
     const limni_rules rules = {.boundary = how->boundary, .creasing = how->creasing};
@@ -220,7 +221,8 @@ static double angle_between(const float normal[3], const double tangents[2][3]) 
     return atan2(length(across), along); // exact for small angles, unlike acos
 }
 
-/// The edges of a patch between two vertices that were split: one of each has OpenSubdiv's tangents.
+/// The edges of a patch between two vertices that were split: one of each has OpenSubdiv's
+/// tangents.
 static uint32_t split_edges(const limn_mesh *mesh, const limni_mesh *built, uint32_t patch) {
     uint32_t corners[LIMN_CORNER_MAX], edges = 0;
     limn_mesh_corners(mesh, patch, corners);

@@ -61,8 +61,8 @@ void limni_mesh_open_boundary(limni_mesh *mesh) {
     }
 }
 
-/// Without a scheme everything is sharp for ever: the masks of corners and of sharp edges, and within
-/// a face those of a regular mesh, leave triangles flat and evenly divided.
+/// Without a scheme everything is sharp for ever: the masks of corners and of sharp edges, and
+/// within a face those of a regular mesh, leave triangles flat and evenly divided.
 static bool is_flat(const limni_rules *rules) {
     return rules->scheme == LIMN_SCHEME_NONE;
 }

@@ -35,8 +35,8 @@ typedef struct limni_opensubdiv_mesh {
 /// At level 4 it takes some 60 KB and 0.1 ms for each face. Otherwise Bfr's surfaces at level
 /// 10, where all sharpness has decayed; with Chaikin's method, in which they are wrong in
 /// places, again uniform refinement, to the level where it has. What is not manifold is sharp.
-/// Returns false, with a text in `error`, when an index is out of range, when OpenSubdiv refuses, or
-/// when out of memory.
+/// Returns false, with a text in `error`, when an index is out of range, when OpenSubdiv refuses,
+/// or when out of memory.
 ///
 /// limit             out: [face_count][domain->row_counts[level]], the rows of the triangle domain
 ///                   with corner c of the face as corner c of the domain; not a number where

@@ -51,7 +51,8 @@ template <typename body_type> bool guard(char *error, size_t error_size, const b
 
 using refiner_pointer = std::unique_ptr<OpenSubdiv::Far::TopologyRefiner>;
 
-/// A refiner that is not refined yet. Throws when OpenSubdiv refuses the mesh, or would crash on it.
+/// A refiner that is not refined yet. Throws when OpenSubdiv refuses the mesh, or would crash on
+/// it.
 refiner_pointer create_refiner(const limni_opensubdiv_mesh &mesh);
 
 template <typename item_type> uint64_t bytes_of(const std::vector<item_type> &items) {

@@ -172,8 +172,8 @@ static void store_points(uint64_t *pairs, uint32_t count, uint32_t slot_size, ui
     }
 }
 
-/// The points of a patch, which are control points, or of level 1 and then follow those. Returns how
-/// many.
+/// The points of a patch, which are control points, or of level 1 and then follow those. Returns
+/// how many.
 static uint32_t list_points(arrangement *a, uint32_t face, uint32_t rotation, uint64_t *pairs) {
     if (is_isolated(a)) {
         const uint32_t count = limni_isolation_list(&a->isolation, a->pieces, face, rotation);

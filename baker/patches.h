@@ -32,10 +32,9 @@ typedef struct limni_patches {
     uint32_t *corner_normals;      ///< [patch_count][3] by its corners; NULL: its control points
 } limni_patches;
 
-/// All but the errors of edges: classifies every face of a mesh and lists its patches; adds the classes and the pieces that are
-/// new. Checks
-/// that patches which share an edge agree on it, and fails with LIMN_BAKE_INTERNAL if any two do
-/// not.
+/// All but the errors of edges: classifies every face of a mesh and lists its patches; adds the
+/// classes and the pieces that are new. Checks that patches which share an edge agree on it, and
+/// fails with LIMN_BAKE_INTERNAL if any two do not.
 limn_bake_status limni_patches_build(limni_context *context, const limni_mesh *mesh,
                                      const limni_rules *rules, limni_classes *classes,
                                      limni_classes *pieces, limni_patches *patches);

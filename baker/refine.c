@@ -194,7 +194,8 @@ static void add_term(refiner *r, uint32_t control, limni_fixed weight) {
         (limn_file_term){.control = control, .weight = limni_fixed_to_float(weight)};
 }
 
-/// By ascending control points: so sheets, whose rings start anywhere, add theirs in the same order.
+/// By ascending control points: so sheets, whose rings start anywhere, add theirs in the same
+/// order.
 static void end_stencil(const refiner *r, uint32_t point) {
     limn_file_term *const terms = r->made->terms + r->made->stencils[point];
     for (uint32_t k = 1; k < r->term_count - r->made->stencils[point]; k++) {

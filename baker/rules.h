@@ -4,8 +4,8 @@
 
 #include "limn/bake.h"
 
-/// The options that decide the masks. Meshes of one file may differ in what limn_bake_desc leaves to
-/// them.
+/// The options that decide the masks. Meshes of one file may differ in what limn_bake_desc leaves
+/// to them.
 typedef struct limni_rules {
     limn_scheme scheme;
     limn_weights weights;

@@ -14,11 +14,11 @@ void limni_loop_vertex_mask(const limni_rules *rules, const limni_star *star, li
 void limni_loop_limit_mask(const limni_rules *rules, const limni_star *star, limni_fixed *weights);
 
 /// Weights of two tangents of the limit surface at a settled star, as above; they sum to 0. Their
-/// cross product points to the side from which the ring is counter-clockwise. Where the star is smooth,
-/// `along` points `half_steps` half steps from ring vertex 0 towards ring vertex 1, and starting
-/// from the opposite side of an even ring negates both exactly. Otherwise they are those of the
-/// side of the crease that starts at its edge half_steps / 2, along it and into that side; at a
-/// corner, of the face that starts there.
+/// cross product points to the side from which the ring is counter-clockwise. Where the star is
+/// smooth, `along` points `half_steps` half steps from ring vertex 0 towards ring vertex 1, and
+/// starting from the opposite side of an even ring negates both exactly. Otherwise they are those
+/// of the side of the crease that starts at its edge half_steps / 2, along it and into that side;
+/// at a corner, of the face that starts there.
 void limni_loop_tangent_masks(const limni_rules *rules, const limni_star *star, uint32_t half_steps,
                               limni_fixed *along, limni_fixed *across);
 

@@ -90,8 +90,9 @@ static limni_fixed dart_power(uint32_t exponent) {
 
 /// Where a crease ends for ever, by OpenSubdiv's rules. Its edge has the mask of a crease, so the
 /// smooth limit is not the limit: that is the left eigenvector for the eigenvalue 1. With the
-/// vertex's weight 1, neighbour j from the crease on has 8 w z(j), where 5 z(j) - z(j - 1) - z(j + 1) = 1 between z(0) = z(n) = 0,
-/// which z(j) = (1 - (q^j + q^(n - j)) / (1 + q^n)) / 3 solves; and the crease 2 w (1 + 2 z(1)).
+/// vertex's weight 1, neighbour j from the crease on has 8 w z(j), where 5 z(j) - z(j - 1) - z(j +
+/// 1) = 1 between z(0) = z(n) = 0, which z(j) = (1 - (q^j + q^(n - j)) / (1 + q^n)) / 3 solves; and
+/// the crease 2 w (1 + 2 z(1)).
 static void fill_dart_limit(const limni_rules *rules, const limni_star *star, uint32_t crease,
                             limni_fixed *weights) {
     const uint32_t n = star->count;
@@ -199,10 +200,10 @@ static void hoppe_tangent(const limni_star *star, sector s, limni_fixed *across)
 }
 
 /// The part of a corner whose normal a face has: the face alone, which starts at ring vertex
-/// `first`; with a smooth edge between two faces both. The tangents are then the sharp edges on both
-/// sides of it: the eigenvalue of what it has apart from them is 3/8 against their 1/2. Between more
-/// faces there is no tangent plane in the limit, as what the smooth edges have in common outlasts
-/// the sharp ones.
+/// `first`; with a smooth edge between two faces both. The tangents are then the sharp edges on
+/// both sides of it: the eigenvalue of what it has apart from them is 3/8 against their 1/2.
+/// Between more faces there is no tangent plane in the limit, as what the smooth edges have in
+/// common outlasts the sharp ones.
 static sector corner_side(const limni_star *star, uint32_t first) {
     const uint32_t right = first, left = limni_star_left(star, first);
     const uint32_t beyond = limni_star_left(star, left), before = limni_star_right(star, right);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Non-manifold meshes, as OpenSubdiv treats them (Far::TopologyRefinerFactory). The sheets that meet
- * in an edge or a vertex get control points of their own. All that they share is sharp, so the limit
- * there depends on what they share alone, and they still meet.
+ * Non-manifold meshes, as OpenSubdiv treats them (Far::TopologyRefinerFactory). The sheets that
+ * meet in an edge or a vertex get control points of their own. All that they share is sharp, so the
+ * limit there depends on what they share alone, and they still meet.
  */
 #include "topology.h"
 
@@ -29,7 +29,8 @@ typedef struct splitter {
     junction *junctions; ///< [control_count] by the control points as they were
 } splitter;
 
-/// A crease of edges that are not manifold passes through a vertex if it runs along all sheets there.
+/// A crease of edges that are not manifold passes through a vertex if it runs along all sheets
+/// there.
 static bool is_passed(const splitter *s, const limni_fan *fan, const uint32_t ends[2],
                       const junction *j) {
     const bool same = (ends[0] == j->ends[0] && ends[1] == j->ends[1]) ||
@@ -38,8 +39,8 @@ static bool is_passed(const splitter *s, const limni_fan *fan, const uint32_t en
            s->cut[limni_half_edge_previous(fan->last)];
 }
 
-/// What is sharp on one sheet makes a corner of all. They can take that for a sharpness of the vertex
-/// if there is only one, and must take it for ever otherwise.
+/// What is sharp on one sheet makes a corner of all. They can take that for a sharpness of the
+/// vertex if there is only one, and must take it for ever otherwise.
 static void meet_spokes(const splitter *s, const limni_fan *fan, junction *j) {
     for (uint32_t h = fan->first; h != fan->last;) {
         h = limni_half_edge_turn(s->mesh, h);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * OpenSubdiv's rules for creases: which masks a vertex and an edge take, and how much of each. What
- * is known beyond an edge is the sharpness that its half there has after a level: all that Chaikin's
- * method needs.
+ * is known beyond an edge is the sharpness that its half there has after a level: all that
+ * Chaikin's method needs.
  */
 #include "crease_rules.h"
 

@@ -23,8 +23,8 @@ typedef struct limni_fan {
 /// The fan that half-edge `h` starts in, in pairs. Marks its outgoing half-edges.
 limni_fan limni_walk_fan(const limni_mesh *mesh, uint32_t h, unsigned char *seen);
 
-/// A half-edge of an edge, by limni_edge_key() of the control points that its ends are, or were before
-/// the mesh was split.
+/// A half-edge of an edge, by limni_edge_key() of the control points that its ends are, or were
+/// before the mesh was split.
 typedef struct limni_keyed_edge {
     uint64_t key;
     uint32_t half_edge;

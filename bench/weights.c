@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Loop's weights beside Warren's: how far the two surfaces of a mesh are apart, their curvature, and
- * what the tables take. Closed meshes, triangulated alike; everything at level 4.
+ * Loop's weights beside Warren's: how far the two surfaces of a mesh are apart, their curvature,
+ * and what the tables take. Closed meshes, triangulated alike; everything at level 4.
  */
 #include "bench.h"
 
@@ -173,7 +173,8 @@ typedef struct spread {
     double sum, least, most;
 } spread;
 
-/// Of the Gaussian curvature at control points, by valence; at those with a boundary nothing is said.
+/// Of the Gaussian curvature at control points, by valence; at those with a boundary nothing is
+/// said.
 static void collect(const surface *s, const curvature *curvatures, spread spreads[VALENCE_MAX]) {
     bool *const seen = calloc(s->place_count, sizeof *seen);
     if (!seen) abort();

@@ -85,9 +85,9 @@ static point from_next_corner(int i, int j) {
     return (point){GRID - i - j, i};
 }
 
-/// Rows inside the triangle that a level adds on the side i > j, or their images: those of the piece
-/// at corner 0; those at corner 1, in the order in which corner 0 has its own, which is that of its
-/// mirror line, of one side of it, and of the other; those in the middle.
+/// Rows inside the triangle that a level adds on the side i > j, or their images: those of the
+/// piece at corner 0; those at corner 1, in the order in which corner 0 has its own, which is that
+/// of its mirror line, of one side of it, and of the other; those in the middle.
 static void add_interior_side(int level, bool image) {
     add_side(level, IN_CORNER, 1, image, as_is);
     for (int own = 0; own < 3; own++)
@@ -97,8 +97,8 @@ static void add_interior_side(int level, bool image) {
 
 // Nested order: what level n adds comes after all of level n - 1; edges first, each along its
 // direction, then the interior: the rows on the mirror line, those on one side of it, and their
-// images, so that a patch that is its own mirror image can be evaluated by halves; on one side piece
-// by piece, so that the rows of a piece are consecutive.
+// images, so that a patch that is its own mirror image can be evaluated by halves; on one side
+// piece by piece, so that the rows of a piece are consecutive.
 static void number_rows(void) {
     for (int level = 0; level < LEVEL_COUNT; level++) {
         const int step = GRID >> level;
@@ -365,8 +365,8 @@ static void fill_block(piece_layout *l) {
         l->rows[l->row_stride++] = NO_ROW;
 }
 
-/// Rows of a piece in the order of those of the patch, where most are consecutive; of a corner's, in
-/// the second one, which leaves the fewest gaps in all three.
+/// Rows of a piece in the order of those of the patch, where most are consecutive; of a corner's,
+/// in the second one, which leaves the fewest gaps in all three.
 ///
 /// take  whether a piece has a row
 static void add_by_patch(piece_layout *l, int piece, bool (*take)(int piece, int row)) {

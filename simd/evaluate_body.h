@@ -314,8 +314,8 @@ static inline void sum_patch(patch *p, const limni_run *run, const chosen *which
     if (normals) sum_tangents(p, run, which, g, domain->corner_count, rows);
 }
 
-/// Both tangents of the rows of all pieces. Those of edges are relative to the end that comes first,
-/// and those inside to a corner.
+/// Both tangents of the rows of all pieces. Those of edges are relative to the end that comes
+/// first, and those inside to a corner.
 static inline void sum_all_piece_tangents(assembly *a, const chosen *which, const float *controls,
                                           const piece_points *points, size_t corner_count) {
     vectors *const out[2] = {&a->staged.along, &a->staged.across};

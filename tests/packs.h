@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What tests of opening a file share: meshes, baked files in memory, and damage to them. Nothing that
- * opens may make evaluation leave its buffers (run under the sanitizers).
+ * What tests of opening a file share: meshes, baked files in memory, and damage to them. Nothing
+ * that opens may make evaluation leave its buffers (run under the sanitizers).
  */
 #ifndef PACKS_H
 #define PACKS_H

@@ -92,8 +92,8 @@ static inline void random_mesh_octahedron(random_mesh *mesh) {
     mesh->face_count = 8;
 }
 
-/// `around` x `along` vertices, each with six neighbours; a torus, or where `open` a tube, with four
-/// neighbours on its boundaries.
+/// `around` x `along` vertices, each with six neighbours; a torus, or where `open` a tube, with
+/// four neighbours on its boundaries.
 static inline void random_mesh_tube(random_mesh *mesh, uint32_t around, uint32_t along, bool open) {
     for (uint32_t v = 0; v < around * along; v++) {
         const float s = (float)(v / around), x = (float)(v % around);
@@ -209,7 +209,8 @@ static inline void random_mesh_tag(random_mesh *mesh, bool finite) {
         mesh->vertex_weights[random_below(mesh, mesh->vertex_count)] = random_weight(mesh, finite);
 }
 
-/// A mesh of 12 to 64 vertices without tags, closed unless `open`. Seeds give tori every third time.
+/// A mesh of 12 to 64 vertices without tags, closed unless `open`. Seeds give tori every third
+/// time.
 static inline random_mesh random_mesh_make(uint64_t seed, bool open) {
     random_mesh mesh = {.state = seed};
     if (seed % 3 == 0)

@@ -235,8 +235,8 @@ static void test_tangent_masks(void) {
     }
 }
 
-/// Lomont's masks hold where the neighbours along a crease are regular, as one with three faces on a
-/// boundary is.
+/// Lomont's masks hold where the neighbours along a crease are regular, as one with three faces on
+/// a boundary is.
 static uint32_t lomont_regular(const limni_rules *rules) {
     limni_sharpness edges[4] = {SHARP, 0, 0, SHARP};
     uint32_t beyond[4] = {0}, seen;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Opening files whose meshes are isolated: which result each kind of damage gives. Where a check
- * keeps reads inside a chunk, what lies behind the chunk is good too, so that nothing but this check
- * can refuse the file.
+ * keeps reads inside a chunk, what lies behind the chunk is good too, so that nothing but this
+ * check can refuse the file.
  */
 #include "packs.h"
 

@@ -121,7 +121,8 @@ static meeting meet(const limni_mesh *mesh, uint32_t a, uint32_t b) {
     return start == other_end && end == other_start ? AGAINST : APART;
 }
 
-/// How many vertices on edges where the mesh was split differ in position from those of other sheets.
+/// How many vertices on edges where the mesh was split differ in position from those of other
+/// sheets.
 static uint64_t count_sheet_differences(const subject *s, uint32_t level, const vertex *vertices) {
     const uint32_t row_count = s->baked.domain->row_counts[level];
     uint32_t *const edges = malloc(3 * (size_t)s->mesh.face_count * sizeof *edges);
@@ -473,8 +474,8 @@ static double measure_triangle(double edges[2][3], double normal[3]) {
     return doubled_area / sqrt(fmax(squares[0], fmax(squares[1], squares[2])));
 }
 
-/// How far a vertex is from the place (i, j) in the flat triangle of its patch, or its normal from the
-/// triangle's by more than points that are `rounding` off explain, whichever is more.
+/// How far a vertex is from the place (i, j) in the flat triangle of its patch, or its normal from
+/// the triangle's by more than points that are `rounding` off explain, whichever is more.
 static double off_triangle(const limn_mesh *mesh, uint32_t patch, limn_row row, double rounding,
                            const float *values) {
     uint32_t corners[LIMN_CORNER_MAX];

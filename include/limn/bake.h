@@ -31,7 +31,7 @@ typedef enum limn_bake_status {
 /// What the surface is that a mesh stands for.
 typedef enum limn_scheme {
     LIMN_SCHEME_LOOP, ///< Loop subdivision
-    LIMN_SCHEME_NONE  ///< the flat triangles themselves, for props that go through the same pipeline
+    LIMN_SCHEME_NONE ///< the flat triangles themselves, for props that go through the same pipeline
 } limn_scheme;
 
 /// Vertex weights of Loop subdivision.
@@ -56,8 +56,8 @@ typedef enum limn_creases {
 } limn_creases;
 
 /// How the sharpness of an edge passes on to its halves, level by level, with OpenSubdiv's rules;
-/// with Lomont's it falls by 1: Chaikin's method is refused here, and ignored with a note where a mesh
-/// asks for it.
+/// with Lomont's it falls by 1: Chaikin's method is refused here, and ignored with a note where a
+/// mesh asks for it.
 typedef enum limn_creasing {
     LIMN_CREASING_DEFAULT, ///< what the mesh or its file asks for; otherwise uniform
     LIMN_CREASING_UNIFORM, ///< it falls by 1
@@ -71,8 +71,8 @@ typedef enum limn_normals {
 } limn_normals;
 
 /// Whether patches are evaluated in pieces, the four faces that one level of subdivision makes of a
-/// base face. Its points are then evaluated first, once a frame (limn_mesh_refine()), and tables are
-/// few and small, however many kinds of surroundings the faces of a mesh have.
+/// base face. Its points are then evaluated first, once a frame (limn_mesh_refine()), and tables
+/// are few and small, however many kinds of surroundings the faces of a mesh have.
 typedef enum limn_isolate {
     LIMN_ISOLATE_NEVER,  ///< a table for every kind of surroundings: the fewest steps for a patch
     LIMN_ISOLATE_ALWAYS, ///< small tables

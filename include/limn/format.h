@@ -59,9 +59,9 @@ extern "C" {
 #define LIMN_CHUNK_TABLES                                                                          \
     LIMN_FORMAT_KIND('T', 'A', 'B', 'L') ///< float[]: the stencil tables of all classes
 
-/// Where meshes are isolated: limn_file_piece[]; and uint16_t[], of each class that is made of pieces
-/// first the four pieces, the corners' and the middle one, and then for each of them the column of
-/// each of the K slots, or LIMN_FORMAT_NO_COLUMN.
+/// Where meshes are isolated: limn_file_piece[]; and uint16_t[], of each class that is made of
+/// pieces first the four pieces, the corners' and the middle one, and then for each of them the
+/// column of each of the K slots, or LIMN_FORMAT_NO_COLUMN.
 #define LIMN_CHUNK_PIECES LIMN_FORMAT_KIND('P', 'I', 'E', 'C')
 #define LIMN_CHUNK_COLUMNS LIMN_FORMAT_KIND('C', 'O', 'L', 'S')
 
@@ -80,8 +80,8 @@ extern "C" {
 #define LIMN_CHUNK_ERRORS                                                                          \
     LIMN_FORMAT_KIND('E', 'R', 'R', 'S') ///< uint16_t[patch_count][corners]: errors of edges
 
-/// In isolated meshes: uint32_t[point_count - control_count + 1], where the terms of each point begin,
-/// and end; and limn_file_term[].
+/// In isolated meshes: uint32_t[point_count - control_count + 1], where the terms of each point
+/// begin, and end; and limn_file_term[].
 #define LIMN_CHUNK_STENCILS LIMN_FORMAT_KIND('S', 'T', 'N', 'C')
 #define LIMN_CHUNK_TERMS LIMN_FORMAT_KIND('T', 'E', 'R', 'M')
 
@@ -148,8 +148,8 @@ typedef struct limn_file_piece {
     uint16_t table_count;   ///< as for a class
 } limn_file_piece;
 
-/// One term of a point of the first level of subdivision, which is c + sum of weight (control - c), c
-/// being the control of its first term; without terms, the origin of the mesh.
+/// One term of a point of the first level of subdivision, which is c + sum of weight (control - c),
+/// c being the control of its first term; without terms, the origin of the mesh.
 typedef struct limn_file_term {
     uint32_t control;
     float weight;
@@ -211,8 +211,8 @@ typedef struct limn_file_mesh {
     uint64_t index_count; ///< entries of the indices chunk
     float bounds_min[3];  ///< of the control points that faces use, in the bind pose
     float bounds_max[3];
-    float origin[3];     ///< see limn_mesh.origin
-    uint32_t hole_count; ///< base faces without a patch
+    float origin[3];      ///< see limn_mesh.origin
+    uint32_t hole_count;  ///< base faces without a patch
     uint32_t point_count; ///< control_count; in isolated meshes with the points of level 1 behind
     uint32_t reserved;
 } limn_file_mesh;

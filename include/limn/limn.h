@@ -256,9 +256,9 @@ typedef struct limn_mesh {
     const struct limn_file_run *runs;
     const struct limn_file_class *classes;
     const struct limn_file_piece *pieces;
-    const uint16_t *columns;               ///< of the slots of classes in their pieces
-    const uint32_t *stencils;              ///< [point_count - control_count + 1] into the terms
-    const struct limn_file_term *terms;    ///< of the points of level 1
+    const uint16_t *columns;                ///< of the slots of classes in their pieces
+    const uint32_t *stencils;               ///< [point_count - control_count + 1] into the terms
+    const struct limn_file_term *terms;     ///< of the points of level 1
     const struct limn_file_normal *normals; ///< NULL: the mesh was baked without normals
     const struct limn_file_side *sides;     ///< [normal_count - control_count]
     const uint32_t *corner_normals; ///< [patch_count][corner_count] the normals of the corners;

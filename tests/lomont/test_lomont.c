@@ -283,8 +283,8 @@ static void check_fan_normals(lomont_mesh *mesh) {
     lomont_destroy(mesh);
 }
 
-/// In a plane all normals are that of the plane, not its opposite: smooth, on boundaries and on each
-/// side of creases, with any number of neighbours.
+/// In a plane all normals are that of the plane, not its opposite: smooth, on boundaries and on
+/// each side of creases, with any number of neighbours.
 static void test_normals_in_a_plane(void) {
     for (uint32_t count = 3; count <= 12; count++) {
         lomont_mesh mesh = fan(count, count, true);

@@ -3,9 +3,9 @@
  * Every mesh, baked and evaluated at level 4, beside OpenSubdiv's limit in double precision: all
  * 153 rows of every face within 3e-7 of the diagonal. Tags and all; and random tags.
  *
- * Isolated, too. There the points of level 1 are rounded to floats, which moves the ends of tangents
- * by about as much as a coordinate is rounded: normals turn by that, divided by the size of the face,
- * up to 1e-2 radians on slivers. Positions of meshes far from 0 are rounded twice.
+ * Isolated, too. There the points of level 1 are rounded to floats, which moves the ends of
+ * tangents by about as much as a coordinate is rounded: normals turn by that, divided by the size
+ * of the face, up to 1e-2 radians on slivers. Positions of meshes far from 0 are rounded twice.
  */
 #include "../../baker/compare.h"
 #include "../../baker/source.h"
