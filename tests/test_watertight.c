@@ -127,6 +127,7 @@ static uint64_t count_sheet_differences(const subject *s, uint32_t level, const 
     const uint32_t row_count = s->baked.domain->row_counts[level];
     uint32_t *const edges = malloc(3 * (size_t)s->mesh.face_count * sizeof *edges);
     uint32_t count = 0;
+    const uint32_t step = LIMN_GRID_SIZE >> level;
     uint64_t differences = 0;
     for (uint32_t h = 0; h < 3 * s->mesh.face_count && s->mesh.origins; h++) {
         if (s->patches[h / 3] != LIMNI_NONE &&
@@ -141,7 +142,7 @@ static uint64_t count_sheet_differences(const subject *s, uint32_t level, const 
             const uint32_t a = s->patches[edges[e] / 3], b = s->patches[edges[f] / 3];
             const uint16_t *const along = rows_along(s, edges[e]), *const other =
                                                                        rows_along(s, edges[f]);
-            for (uint32_t t = 0; t <= LIMN_GRID_SIZE; t += LIMN_GRID_SIZE >> level) {
+            for (uint32_t t = 0; t <= LIMN_GRID_SIZE; t += step) {
                 const uint32_t at = met == ALONG ? t : LIMN_GRID_SIZE - t;
                 differences +=
                     memcmp(vertices[(size_t)a * row_count + along[t]],
