@@ -65,6 +65,10 @@ static limni_rules rules_for(const limni_rules *options, const limni_mesh *mesh)
     const bool lomont = rules.creases == LIMN_CREASES_LOMONT; // whose sharpness falls by 1
     if (rules.creasing == LIMN_CREASING_DEFAULT && !lomont) rules.creasing = mesh->creasing;
     if (rules.creasing == LIMN_CREASING_DEFAULT) rules.creasing = LIMN_CREASING_UNIFORM;
+    if (rules.scheme == LIMN_SCHEME_NONE) { // evenly divided, by these rules alone
+        rules.creases = LIMN_CREASES_OPENSUBDIV;
+        rules.creasing = LIMN_CREASING_UNIFORM;
+    }
     return rules;
 }
 

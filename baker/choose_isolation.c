@@ -40,16 +40,18 @@ static limn_bake_status try_bake(limni_context *context, const limni_mesh *mesh,
 limn_bake_status limni_choose_isolation(limni_context *context, const limni_mesh *mesh,
                                         const limni_rules *rules, limni_footprint footprints[2],
                                         limn_isolate *isolate) {
-    limn_bake_status status = LIMN_BAKE_OK;
-    for (int way = 0; way < 2 && status == LIMN_BAKE_OK; way++) {
+    limn_bake_status status[2] = {LIMN_BAKE_OK};
+    for (int way = 0; way < 2; way++) {
         limni_context scratch = {.desc = context->desc}; // all of the trial goes with it
-        status = try_bake(&scratch, mesh, *rules, way ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER,
-                          &footprints[way]);
-        memcpy(context->error, scratch.error, sizeof context->error);
+        scratch.desc.progress = NULL;
+        status[way] = try_bake(&scratch, mesh, *rules,
+                               way ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER, &footprints[way]);
+        if (way == 0) memcpy(context->error, scratch.error, sizeof context->error);
         limni_release_all(&scratch);
+        LIMNI_TRY(status[0]);
     }
-    const bool isolated =
-        footprints[0].tables > TABLES_MAX && footprints[1].tables < footprints[0].tables;
+    const bool isolated = status[1] == LIMN_BAKE_OK && footprints[0].tables > TABLES_MAX &&
+                          footprints[1].tables < footprints[0].tables;
     *isolate = isolated ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER;
-    return status;
+    return LIMN_BAKE_OK;
 }

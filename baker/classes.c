@@ -234,7 +234,7 @@ static limn_bake_status add_end_tangents(limni_context *context, const limni_rul
                                          const limni_neighbourhood *neighbourhood,
                                          limni_fixed *tangents, size_t table_size) {
     const limni_star *const star = &neighbourhood->corners[1];
-    const uint32_t slot_count = neighbourhood->control_count;
+    const uint32_t slot_count = neighbourhood->control_count, *const twins = neighbourhood->twins;
     limni_fixed *const masks =
         limni_allocate(context, 2 * (1 + (size_t)star->count), sizeof *masks);
     if (!masks) return LIMN_BAKE_MEMORY;
@@ -247,9 +247,9 @@ static limn_bake_status add_end_tangents(limni_context *context, const limni_rul
     for (uint32_t table = 0; table < 2; table++) {
         limni_fixed *const row = tangents + table * table_size + slot_count; // row 1
         const limni_fixed *const mask = table ? across : along;
-        row[1] = mask[0];
+        row[twins ? twins[1] : 1] += mask[0];
         for (uint32_t r = 0; r < star->count; r++)
-            row[star->ring[r]] += mask[1 + r];
+            row[twins ? twins[star->ring[r]] : star->ring[r]] += mask[1 + r];
     }
     limni_release(context, masks);
     return LIMN_BAKE_OK;

@@ -82,7 +82,7 @@ typedef struct limni_index_table {
 typedef struct limni_classes {
     limni_class *items;
     limni_class_key *keys;
-    uint32_t count, key_count, capacity; ///< there are never more items than keys
+    uint32_t count, key_count, capacity;
     limni_index_table by_key, by_table;
 } limni_classes;
 

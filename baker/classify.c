@@ -4,8 +4,9 @@
 #include <string.h>
 
 enum {
-    /// check_size() refuses faces whose rings have more entries in all.
-    RING_MAX = LIMNI_LOCAL_BASE_MAX,
+    /// limni_check_valences() refuses faces whose rings have more entries in all; at level 1, a face at
+    /// a corner has the corner's ring and two of six, where those of the base face may have three.
+    RING_MAX = LIMNI_LOCAL_BASE_MAX + 6,
     SLOT_MAX = 3 * RING_MAX + 3,
     KEY_MAX = 9 + 3 * RING_MAX + 2 * SLOT_MAX
 };
@@ -226,9 +227,14 @@ static limn_bake_status check_size(limni_context *context, const limni_mesh *mes
                       limni_face_place(mesh, face, face_text), LIMNI_LOCAL_BASE_MAX);
 }
 
-const limni_local_base *limni_classify(limni_context *context, limni_classifier *classifier,
-                                       uint32_t face) {
-    if (check_size(context, classifier->mesh, face) != LIMN_BAKE_OK) return NULL;
+limn_bake_status limni_check_valences(limni_context *context, const limni_mesh *mesh) {
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        if (!mesh->holes[face]) LIMNI_TRY(check_size(context, mesh, face));
+    }
+    return LIMN_BAKE_OK;
+}
+
+const limni_local_base *limni_classify(limni_classifier *classifier, uint32_t face) {
     int best = -1;
     for (uint32_t rotation = 0; rotation < 3; rotation++) {
         if (is_ruled_out(classifier->mesh, face, rotation)) continue;

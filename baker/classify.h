@@ -51,10 +51,12 @@ limn_bake_status limni_classifier_begin(limni_context *context, limni_classifier
                                         const limni_rules *rules);
 void limni_classifier_end(limni_context *context, limni_classifier *classifier);
 
-/// The local base of a face in its canonical rotation; NULL with an error when it is too large.
-/// Valid until the next call.
-const limni_local_base *limni_classify(limni_context *context, limni_classifier *classifier,
-                                       uint32_t face);
+/// Refuses faces whose corners have more than LIMNI_LOCAL_BASE_MAX edges in all: to be called before
+/// anything else here.
+limn_bake_status limni_check_valences(limni_context *context, const limni_mesh *mesh);
+
+/// The local base of a face in its canonical rotation. Valid until the next call.
+const limni_local_base *limni_classify(limni_classifier *classifier, uint32_t face);
 
 /// The same in a rotation that is known to be the canonical one.
 const limni_local_base *limni_local_base_at(limni_classifier *classifier, uint32_t face,

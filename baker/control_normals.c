@@ -61,6 +61,9 @@ static limn_bake_status write_mask(builder *b, const limni_star *star, uint32_t 
         normals->weights = weights;
     }
     LIMNI_TRY(limni_star_tangents(b->context, b->rules, star, half_steps, b->along, b->across));
+    if (normals->weight_count + size > UINT32_MAX)
+        return limni_fail(b->context, LIMN_BAKE_BAD_INPUT,
+                          "the mesh has too many sharp vertices for exact normals");
     float *weight = normals->weights + normals->weight_count;
     for (uint32_t w = 0; w < star->count; w++) {
         weight[w] = limni_fixed_to_float(b->along[1 + w]);

@@ -29,6 +29,7 @@ static uint32_t slot_size_of(const limni_class *class) {
 
 static limn_bake_status begin_arrangement(limni_context *context, arrangement *a) {
     const limni_mesh *const mesh = a->mesh;
+    LIMNI_TRY(limni_check_valences(context, mesh));
     LIMNI_TRY(limni_mesh_sharpness_begin(context, mesh, a->rules, &a->sharpness));
     LIMNI_TRY(limni_classifier_begin(context, &a->classifier, mesh, &a->sharpness, a->rules));
     LIMNI_TRY(limni_assignment_begin(context, mesh->face_count, &a->assigned));
@@ -48,8 +49,7 @@ static void end_arrangement(limni_context *context, arrangement *a) {
 }
 
 static limn_bake_status assign_class(limni_context *context, arrangement *a, uint32_t face) {
-    const limni_local_base *const base = limni_classify(context, &a->classifier, face);
-    if (!base) return LIMN_BAKE_BAD_INPUT;
+    const limni_local_base *const base = limni_classify(&a->classifier, face);
     uint32_t *const key = &a->assigned.keys[face];
     a->assigned.rotations[face] = base->rotation;
     if (is_isolated(a))

@@ -27,6 +27,7 @@ typedef struct splitter {
     unsigned char *cut;  ///< [3 * face_count]
     unsigned char *seen; ///< [3 * face_count]
     junction *junctions; ///< [control_count] by the control points as they were
+    bool may_pass;       ///< whether sheets of any number of faces have one crease through a vertex
 } splitter;
 
 /// A crease of edges that are not manifold passes through a vertex if it runs along all sheets
@@ -59,7 +60,7 @@ static void meet_fan(const splitter *s, const limni_fan *fan) {
     junction *const j = &s->junctions[control];
     if (j->fan_count++ == 0) {
         memcpy(j->ends, ends, sizeof ends);
-        j->passed = true;
+        j->passed = s->may_pass;
         j->sharpness = s->mesh->vertex_sharpness[control];
     }
     j->passed = j->passed && is_passed(s, fan, ends, j);
@@ -196,6 +197,8 @@ limn_bake_status limni_split(limni_context *context, limni_mesh *mesh) {
     const size_t half_edge_count = 3 * (size_t)mesh->face_count;
     const splitter s = {
         .mesh = mesh,
+        // Lomont's masks of a crease depend on how many faces there are on its side.
+        .may_pass = context->desc.creases != LIMN_CREASES_LOMONT,
         .cut = limni_allocate_zeroed(context, half_edge_count, 1),
         .seen = limni_allocate_zeroed(context, half_edge_count, 1),
         .junctions = limni_allocate_zeroed(context, mesh->control_count, sizeof *s.junctions),

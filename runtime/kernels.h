@@ -70,8 +70,7 @@ typedef struct limni_piece {
     const uint16_t *columns; ///< [control_count of the run] or LIMN_FORMAT_NO_COLUMN
     const limni_piece_layout *positions, *tangents; ///< with the same stride
     size_t table_stride;                            ///< floats from table to table
-    uint32_t column_count;
-    uint16_t first_place; ///< among those of all pieces
+    uint16_t first_place;                           ///< among those of all pieces
 } limni_piece;
 
 static inline limni_piece limni_piece_of(const limni_run *run, uint32_t p) {
@@ -83,7 +82,6 @@ static inline limni_piece limni_piece_of(const limni_run *run, uint32_t p) {
         .positions = &pieces->positions[record->kind],
         .tangents = &pieces->tangents[record->kind],
         .table_stride = (size_t)record->control_count * limn_file_piece_stride(record),
-        .column_count = record->control_count,
         .first_place = (uint16_t)(p * pieces->positions[LIMNI_PIECE_CORNER].row_stride),
     };
 }

@@ -432,26 +432,29 @@ static LIMNI_INLINE void evaluate_patches(const limni_run *run, const gathering 
     }
 }
 
-/// Apart, so that runs with tables keep their registers.
-static LIMNI_NOINLINE void evaluate_in_pieces(const limni_run *run, const limni_points *from,
-                                              const limni_target *target) {
-    gathering g = {.controls = from->controls, .slot_size = run->slot_size};
+static LIMNI_INLINE void evaluate_assembly(const limni_run *run, gathering *g,
+                                           const limni_points *from, const limni_target *target) {
     assembly pieces;
     pieces.layouts = run->pieces;
     for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++)
         pieces.items[p] = limni_piece_of(run, p);
     clear_rows(&pieces.staged, LIMNI_PIECE_PLACES);
-    if (run->slot_size == 1) {
-        _Alignas(16) term ascending[4 * LIMN_FORMAT_NARROW_SLOTS + 1];
-        g.slot_size = 1;
-        g.to.ascending = ascending;
-        evaluate_patches(run, &g, from, target, false, &pieces);
-    } else {
-        _Alignas(16) term ascending[4 * LIMN_FORMAT_CONTROLS_MAX + 1];
-        g.slot_size = 2;
-        g.to.ascending = ascending;
-        evaluate_patches(run, &g, from, target, false, &pieces);
-    }
+    evaluate_patches(run, g, from, target, false, &pieces);
+}
+
+/// Apart, so that runs with tables keep their registers, and those of few points their stack.
+static LIMNI_NOINLINE void evaluate_in_pieces(const limni_run *run, const limni_points *from,
+                                              const limni_target *target) {
+    _Alignas(16) term ascending[4 * LIMN_FORMAT_NARROW_SLOTS + 1];
+    gathering g = {.controls = from->controls, .slot_size = 1, .to.ascending = ascending};
+    evaluate_assembly(run, &g, from, target);
+}
+
+static LIMNI_NOINLINE void evaluate_in_wide_pieces(const limni_run *run, const limni_points *from,
+                                                   const limni_target *target) {
+    _Alignas(16) term ascending[4 * LIMN_FORMAT_CONTROLS_MAX + 1];
+    gathering g = {.controls = from->controls, .slot_size = 2, .to.ascending = ascending};
+    evaluate_assembly(run, &g, from, target);
 }
 
 /// Each way to store has its own loop over patches.
@@ -481,8 +484,10 @@ static LIMNI_INLINE void evaluate_with_tables(const limni_run *run, const limni_
 
 static void evaluate_run(const limni_run *run, const limni_points *from,
                          const limni_target *target) {
-    if (run->pieces) {
+    if (run->pieces && run->slot_size == 1) {
         evaluate_in_pieces(run, from, target);
+    } else if (run->pieces) {
+        evaluate_in_wide_pieces(run, from, target);
     } else {
         evaluate_with_tables(run, from, target);
     }

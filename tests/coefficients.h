@@ -49,7 +49,7 @@ static inline column_place place_in_pieces(const limni_run *run, uint32_t table,
     column_place place = {.table = piece.table + table * piece.table_stride,
                           .at = staged - piece.first_place,
                           .stride = piece.positions->row_stride,
-                          .column_count = piece.column_count,
+                          .column_count = run->records[run->parts[p]].control_count,
                           .edge = 3,
                           .columns = piece.columns};
     if (table && p < 3 && place.at < 16) place.edge = (p + (place.at < 8 ? 0 : 2)) % 3;

@@ -449,6 +449,7 @@ static void test_lomont(void) {
     mesh_files_visit(visit_tagged);
     test_tagged(false);
     test_generated(20, false);
+    test_book();
     creases = LIMN_CREASES_OPENSUBDIV;
 }
 

@@ -488,7 +488,8 @@ void limn_mesh_control_normals(const limn_mesh *mesh, const float *controls, flo
 
 /// Evaluates patches [begin, end) of a plan and writes their positions, and if asked to, unit
 /// normals of the limit surface. Does not allocate, never fails; any number of threads may evaluate
-/// disjoint ranges of one plan into one output. The caller's own bytes between vertices are left
+/// disjoint ranges of one plan into one output. Takes some 64 KB of stack; 200 KB where a patch
+/// depends on more than 256 points. The caller's own bytes between vertices are left
 /// alone. The same input gives the same bits with every reproducible kernel, and shared vertices of
 /// neighbouring patches get the same bits with any. Both hold if all threads round to nearest and
 /// treat denormals alike, and where control points are finite; docs/design.md says more.
