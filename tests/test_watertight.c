@@ -416,8 +416,10 @@ static void test_book(void) {
             for (int v = 0; v + 1 < LENGTH; v++) {
                 const int first = p % 2 ? inner + v : outer + v,
                           second = p % 2 ? outer + v : inner + v;
-                fprintf(file, "f %d %d %d\nf %d %d %d\n", first, first + 1, second, first + 1,
-                        second + 1, second);
+                // On the last page diagonals turn: on the spine there are two faces, or four.
+                const int turned = p == PAGES - 1 && v % 2;
+                fprintf(file, "f %d %d %d\nf %d %d %d\n", first, first + 1, second + turned,
+                        turned ? first : first + 1, second + 1, second);
             }
         }
     }
