@@ -3,8 +3,8 @@
 #ifndef TAGGED_H
 #define TAGGED_H
 
-#include "lomont.h"
 #include "../random_mesh.h"
+#include "lomont.h"
 
 /// A mesh with its tags. Free it with lomont_destroy().
 static inline lomont_mesh lomont_from_random(const random_mesh *random) {
