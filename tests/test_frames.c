@@ -18,7 +18,7 @@ enum { FLOATS = 6, FRAMES_PER_MESH = 16, FACES_MAX = 4000 };
 static const limn_domain *domain;
 static uint16_t indices[100000];
 static limn_template templates[225];
-static unsigned long frame_count, mesh_count, open_count, culled_count, patch_total;
+static unsigned long side_count, frame_count, mesh_count, open_count, culled_count, patch_total;
 
 static uint64_t random_state = 1;
 
@@ -41,6 +41,8 @@ typedef struct subject {
     void *memory;
     float (*vertices)[FLOATS]; ///< room for all patches at level 4
     uint8_t *open;             ///< [patch_count] bit e: edge e is on the boundary
+    uint8_t *apart;            ///< [patch_count] bit e: patches at edge e have normals of their own
+    bool has_sides;            ///< the vertices have normals, of which some are apart
     float diagonal;
 } subject;
 
@@ -57,20 +59,50 @@ static uint64_t base_edge(const limn_mesh *mesh, uint32_t patch, uint32_t e, boo
     return reversed ? b << 32 | a : a << 32 | b;
 }
 
-/// Finds the edges without an opposite. Returns whether there are any.
+typedef struct listed_edge {
+    uint64_t key;
+    uint32_t index; ///< 3 patch + e
+} listed_edge;
+
+/// The normal at the start of edge e of patch p, i = 3 p + e.
+static uint32_t normal_at(const limn_mesh *mesh, uint32_t i) {
+    uint32_t corners[LIMN_CORNER_MAX];
+    limn_mesh_corners(mesh, i / 3, corners);
+    return mesh->corner_normals ? mesh->corner_normals[i] : corners[i % 3];
+}
+
+static uint32_t next_edge(uint32_t i) {
+    return i / 3 * 3 + (i + 1) % 3;
+}
+
+/// Whether the patches at an edge have normals of their own, along it or at an end.
+static bool is_apart(const limn_mesh *mesh, uint32_t i, uint32_t opposite) {
+    return (mesh->creases && mesh->creases[i / 3] >> i % 3 & 1) ||
+           normal_at(mesh, i) != normal_at(mesh, next_edge(opposite)) ||
+           normal_at(mesh, next_edge(i)) != normal_at(mesh, opposite);
+}
+
+/// Finds the edges without an opposite, and those with normals apart. Returns whether there are any
+/// of the former.
 static bool find_boundary(subject *s) {
     const size_t count = 3 * (size_t)s->mesh.patch_count;
-    uint64_t *const edges = malloc(count * sizeof *edges);
+    listed_edge *const edges = calloc(count, sizeof *edges);
     s->open = calloc(s->mesh.patch_count, 1);
+    s->apart = calloc(s->mesh.patch_count, 1);
     bool any = false;
     for (uint32_t i = 0; i < count; i++)
-        edges[i] = base_edge(&s->mesh, i / 3, i % 3, false);
+        edges[i] = (listed_edge){base_edge(&s->mesh, i / 3, i % 3, false), i};
     qsort(edges, count, sizeof *edges, compare_words);
     for (uint32_t i = 0; i < count; i++) {
-        const uint64_t opposite = base_edge(&s->mesh, i / 3, i % 3, true);
-        if (bsearch(&opposite, edges, count, sizeof *edges, compare_words)) continue;
-        s->open[i / 3] |= (uint8_t)(1u << i % 3);
-        any = true;
+        const uint64_t key = base_edge(&s->mesh, i / 3, i % 3, true);
+        const listed_edge *const found = bsearch(&key, edges, count, sizeof *edges, compare_words);
+        const uint8_t bit = (uint8_t)(1u << i % 3);
+        if (!found) {
+            s->open[i / 3] |= bit;
+            any = true;
+        } else if (is_apart(&s->mesh, i, found->index)) {
+            s->apart[i / 3] |= bit;
+        }
     }
     free(edges);
     return any;
@@ -104,10 +136,11 @@ static void unload(subject *s) {
     free(s->memory);
     free(s->vertices);
     free(s->open);
+    free(s->apart);
     limn_baker_destroy(s->baker);
 }
 
-/// Across creases normals differ: there only positions are compared.
+/// Across creases normals differ: positions are compared alone, and then normals elsewhere.
 static bool has_creases(const subject *s) {
     return s->mesh.creases || s->mesh.corner_normals;
 }
@@ -159,14 +192,16 @@ static uint64_t sum_edges(const float (*vertices)[FLOATS], const uint16_t *trian
 
 /// What the rows of the boundary say, which have no opposites.
 static uint64_t sum_boundary(const subject *s, const limn_plan *plan) {
+    const uint8_t *const apart = s->has_sides ? s->apart : s->open;
     uint64_t sum = 0;
     for (uint32_t p = 0; p < plan->patch_count; p++) {
         const limn_plan_patch *const item = &plan->patches[p];
         const float(*const vertices)[FLOATS] =
             (const float(*)[FLOATS])s->vertices + item->first_vertex;
+        const uint32_t ends = s->open[item->patch] | apart[item->patch];
         for (uint32_t e = 0; e < 3; e++) {
             const uint32_t step = LIMN_GRID_SIZE >> item->edge_levels[e];
-            for (uint32_t t = 0; s->open[item->patch] >> e & 1 && t < LIMN_GRID_SIZE; t += step) {
+            for (uint32_t t = 0; ends >> e & 1 && t < LIMN_GRID_SIZE; t += step) {
                 const uint64_t a = hash_vertex(vertices[domain->edge_rows[e][t]]);
                 const uint64_t b = hash_vertex(vertices[domain->edge_rows[e][t + step]]);
                 sum += hash_edge(a, b) - hash_edge(b, a);
@@ -484,6 +519,21 @@ static void check_hook(subject *s, limn_view view) {
 
 // ---- All frames
 
+/// Of a mesh with creases, the same with normals, as if it were cut open along them.
+static void check_sides(subject *s, const limn_plan *plan,
+                        uint64_t (*sum)(const subject *s, const limn_plan *plan)) {
+    if (!has_creases(s)) return;
+    limn_output output = output_of(s);
+    output.normals = s->vertices[0] + 3;
+    limn_evaluate(plan, s->mesh.controls, 0, plan->patch_count, &output);
+    s->has_sides = true;
+    CHECK_EQUAL(sum(s, plan), 0);
+    s->has_sides = false;
+    side_count++;
+    memset(s->vertices, 0, (size_t)plan->vertex_count * sizeof *s->vertices);
+    evaluate(s, plan);
+}
+
 static void test_frame(subject *s, int frame) {
     limn_view views[2] = {random_view(s), random_view(s)};
     const uint32_t view_count = frame % 2 ? 2 : 1;
@@ -501,9 +551,11 @@ static void test_frame(subject *s, int frame) {
     CHECK_EQUAL(plan.patch_count, s->mesh.patch_count);
     evaluate(s, &plan);
     CHECK_EQUAL(sum_frame(s, &plan), 0);
+    check_sides(s, &plan, sum_frame);
     scramble(s, &plan);
     evaluate(s, &plan);
     CHECK_EQUAL(sum_scrambled(s, &plan), 0);
+    check_sides(s, &plan, sum_scrambled);
     if (frame == 3) check_morphs(s, &plan);
     if (frame == 4) check_split(s, &plan);
     if (frame == 5) check_topology(s, &views[0]);
@@ -561,8 +613,10 @@ int main(void) {
     mesh_files_visit(visit_tagged);
     snprintf(path, sizeof path, "%s/imp.obj", getenv("LIMN_ASSETS"));
     test_can_fail(path);
-    printf("%lu frames of %lu meshes, %lu of them with a boundary; %lu of %lu patches culled\n",
-           frame_count, mesh_count, open_count, culled_count, patch_total);
-    CHECK(culled_count > 0 && open_count > 0);
+    printf(
+        "%lu frames of %lu meshes, %lu of them with a boundary; %lu frames twice, with the sides "
+        "of creases; %lu of %lu patches culled\n",
+        frame_count, mesh_count, open_count, side_count, culled_count, patch_total);
+    CHECK(culled_count > 0 && open_count > 0 && side_count > 0);
     return check_report();
 }
