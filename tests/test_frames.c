@@ -613,6 +613,8 @@ int main(void) {
     mesh_files_visit(visit_tagged);
     snprintf(path, sizeof path, "%s/imp.obj", getenv("LIMN_ASSETS"));
     test_can_fail(path);
+    snprintf(path, sizeof path, "%s/../docs/box.obj", getenv("LIMN_ASSETS")); // has sharp corners
+    visit(path);
     printf(
         "%lu frames of %lu meshes, %lu of them with a boundary; %lu frames twice, with the sides "
         "of creases; %lu of %lu patches culled\n",
