@@ -389,7 +389,7 @@ limn_bake_status limni_classes_find_parts(limni_context *context, limni_classes 
 
 limn_file_piece limni_piece_record(const limni_class *piece) {
     return (limn_file_piece){.control_count = piece->control_count,
-                             .kind = (uint16_t)(piece->kind - LIMNI_TABLE_CORNER),
+                             .kind = (uint8_t)(piece->kind - LIMNI_TABLE_CORNER),
                              .table_count = (uint16_t)piece->table_count};
 }
 

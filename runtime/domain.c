@@ -5,17 +5,24 @@
 const limn_domain *limn_domain_get(limn_domain_kind kind) {
     static const limn_domain *const domains[LIMN_DOMAIN_COUNT] = {
         [LIMN_DOMAIN_TRIANGLE] = &limni_domain_triangle,
+        [LIMN_DOMAIN_QUAD] = &limni_domain_quad,
     };
     LIMNI_REQUIRE((unsigned)kind < LIMN_DOMAIN_COUNT, domains[0]);
     return domains[kind];
 }
 
 const limni_pieces *limni_pieces_get(limn_domain_kind kind) {
-    (void)kind; // there is but one
-    return &limni_pieces_triangle;
+    static const limni_pieces *const pieces[LIMN_DOMAIN_COUNT] = {
+        [LIMN_DOMAIN_TRIANGLE] = &limni_pieces_triangle,
+        [LIMN_DOMAIN_QUAD] = &limni_pieces_quad,
+    };
+    return pieces[kind];
 }
 
 const limni_layout *limni_layout_get(limn_domain_kind kind, bool tangents, uint32_t pair_count) {
-    (void)kind; // there is but one
-    return &(tangents ? limni_tangents_triangle : limni_positions_triangle)[pair_count > 0];
+    static const limni_layout *const layouts[LIMN_DOMAIN_COUNT][2] = {
+        [LIMN_DOMAIN_TRIANGLE] = {limni_positions_triangle, limni_tangents_triangle},
+        [LIMN_DOMAIN_QUAD] = {limni_positions_quad, limni_tangents_quad},
+    };
+    return &layouts[kind][tangents][pair_count > 0];
 }

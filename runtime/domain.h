@@ -7,11 +7,13 @@
 #include "limn/limn.h"
 
 enum {
-    LIMNI_SEGMENT_MAX = 2,
+    LIMNI_SEGMENT_MAX = 4,
     LIMNI_PAIR_BLOCK_MAX = 6,
     LIMNI_EDGE_ROWS = 16, ///< a tangent table's places for one edge
     LIMNI_NO_ROW = 0xffff
 };
+
+LIMN_STATIC_ASSERT(LIMN_FORMAT_QUAD == (unsigned)LIMN_DOMAIN_QUAD, "domains");
 
 /// Consecutive places of a column, and where in the patch their sums go. Sums of padding go there,
 /// too, and are overwritten by pairs or by edges.
@@ -26,7 +28,7 @@ typedef struct limni_segment {
 ///
 /// Where a class is its own mirror image, most rows inside the patch are pairs: a row and its image
 /// follow from one sum of even terms and one of odd ones (simd/sums.h). Tangents have the rows of
-/// each edge apart, because they are summed relative to a point of the edge.
+/// each edge apart, because they are summed relative to a point of the edge. Quads have no pairs.
 typedef struct limni_layout {
     uint16_t row_stride;  ///< places of a column
     const uint16_t *rows; ///< [row_stride] the row at each place; of a pair, that on one side;
@@ -38,15 +40,21 @@ typedef struct limni_layout {
     uint16_t mirror_rows[LIMNI_PAIR_BLOCK_MAX]; ///< and the other
     /// Of tangents: rows of edge e, from place e * LIMNI_EDGE_ROWS on.
     uint16_t edge_counts[LIMN_LEVEL_COUNT];
+    uint16_t inside_level; ///< the first whose rows inside are not among those of the edges
 } limni_layout;
 
 /// An isolated patch is evaluated in four pieces, the faces that one level of subdivision makes of
-/// it: one at each corner of a triangle, and the one in the middle. Their rows are those of a
-/// triangle of depth 3. Rows between two pieces belong to the middle one.
-enum { LIMNI_PIECE_COUNT = LIMN_FORMAT_PIECE_COUNT, LIMNI_PIECE_PLACES = 168 };
+/// it: one at each corner, and of a triangle the one in the middle. Their rows are those of the
+/// domain down to level 3. Of a triangle, rows between two pieces belong to the middle one; of a
+/// quad, to the piece at whose corner the edge starts from which they lead to the middle of the
+/// patch. All four have that middle, and the first gives it.
+enum {
+    LIMNI_PIECE_COUNT = LIMN_FORMAT_PIECE_COUNT,
+    LIMNI_PIECE_PLACES = 320 ///< of all pieces of a patch, at most
+};
 
 typedef enum limni_piece_kind {
-    LIMNI_PIECE_CORNER, ///< its corner 0 is the patch's, and its edges 0 and 2 are halves of edges
+    LIMNI_PIECE_CORNER, ///< its corner 0 is the patch's, its first and last edges halves of edges
     LIMNI_PIECE_MIDDLE  ///< its corner k is the middle of edge k of the patch
 } limni_piece_kind;
 
@@ -67,19 +75,20 @@ typedef struct limni_piece_copy {
 /// Sums of pieces go to places of their own, and from there to the rows of the patch. Copies are in
 /// the order of the rows, and those of a level are a prefix: each may write four rows, of which the
 /// last are overwritten. In a corner's tables of tangents, the first block has the rows of the half
-/// edge that starts at the corner, its far end included, and the second those of the other one.
+/// edge that starts at the corner, its far end included, and the second those of the other one; of
+/// a quad, in front of them, the middle of the patch.
 typedef struct limni_pieces {
     limni_piece_layout positions[2], tangents[2]; ///< by limni_piece_kind
     const limni_piece_copy *position_copies, *normal_copies;
     uint16_t position_copy_counts[LIMN_LEVEL_COUNT], normal_copy_counts[LIMN_LEVEL_COUNT];
 } limni_pieces;
 
-static inline limni_piece_kind limni_piece_kind_of(uint32_t piece) {
-    return piece < LIMNI_PIECE_COUNT - 1 ? LIMNI_PIECE_CORNER : LIMNI_PIECE_MIDDLE;
+static inline limni_piece_kind limni_piece_kind_of(const limn_domain *domain, uint32_t piece) {
+    return piece < domain->corner_count ? LIMNI_PIECE_CORNER : LIMNI_PIECE_MIDDLE;
 }
 
-extern const limn_domain limni_domain_triangle;
-extern const limni_pieces limni_pieces_triangle;
+extern const limn_domain limni_domain_triangle, limni_domain_quad;
+extern const limni_pieces limni_pieces_triangle, limni_pieces_quad;
 
 const limni_pieces *limni_pieces_get(limn_domain_kind kind);
 
@@ -89,6 +98,7 @@ const limni_layout *limni_layout_get(limn_domain_kind kind, bool tangents, uint3
 
 /// What limni_layout_get() chooses from: without pairs, and with.
 extern const limni_layout limni_positions_triangle[2], limni_tangents_triangle[2];
+extern const limni_layout limni_positions_quad[1], limni_tangents_quad[1];
 
 static inline size_t limni_padded(size_t row_count) {
     return (row_count + LIMN_FORMAT_ROW_BLOCK - 1) / LIMN_FORMAT_ROW_BLOCK * LIMN_FORMAT_ROW_BLOCK;
@@ -98,9 +108,6 @@ static inline size_t limni_padded(size_t row_count) {
 static inline uint32_t limni_first_inside(const limn_domain *domain, uint32_t level) {
     return domain->row_counts[level - 1] + domain->corner_count * (1u << (level - 1));
 }
-
-/// The first level whose tangents inside are not among those of the edges.
-enum { LIMNI_INSIDE_LEVEL = 3 };
 
 /// Along an edge, the place of the parent of the lower level of the row at grid step `t`; of two
 /// corners, the start.

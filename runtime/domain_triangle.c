@@ -599,6 +599,7 @@ const limni_layout limni_tangents_triangle[2] = {
         {{48, 27, 24}, {72, 69, 88}},
     },
     .edge_counts = {0, 1, 4, 8, 16},
+    .inside_level = 3,
     },
     {.row_stride = 112,
     .rows = mirrored_tangent_rows,
@@ -614,6 +615,7 @@ const limni_layout limni_tangents_triangle[2] = {
     .pair_rows = {29, 73, 81, 89, 97, 105},
     .mirror_rows = {37, 113, 121, 129, 137, 145},
     .edge_counts = {0, 1, 4, 8, 16},
+    .inside_level = 3,
     },
 };
 

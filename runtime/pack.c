@@ -174,11 +174,15 @@ static bool are_tables_inside(const limn_file_chunk *tables, uint64_t offset, ui
 
 static limn_result validate_pieces(const limn_pack *pack, const limn_file_chunk *tables) {
     const limn_file_chunk *const chunk = find_chunk(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_PIECES);
-    if (chunk && chunk->size != pack->piece_count * sizeof(limn_file_piece))
+    if (chunk && (chunk->size != pack->piece_count * sizeof(limn_file_piece) ||
+                  pack->piece_count > LIMN_FORMAT_PIECES_MAX))
         return LIMN_ERROR_PIECE;
     for (uint32_t p = 0; p < pack->piece_count; p++) {
         const limn_file_piece *const piece = &pack->pieces[p];
-        if (piece->kind > LIMNI_PIECE_MIDDLE || piece->control_count > LIMN_FORMAT_CONTROLS_MAX ||
+        if (piece->domain >= LIMN_DOMAIN_COUNT ||
+            piece->kind > limni_piece_kind_of(limn_domain_get((limn_domain_kind)piece->domain),
+                                              LIMNI_PIECE_COUNT - 1) ||
+            piece->control_count > LIMN_FORMAT_CONTROLS_MAX ||
             !are_tables_inside(tables, piece->table_offset, piece->table_count,
                                piece->control_count, limn_file_piece_stride(piece)))
             return LIMN_ERROR_PIECE;
@@ -198,8 +202,8 @@ static limn_result validate_columns(const uint16_t *columns, uint32_t count,
 /// A class that is made of pieces.
 static limn_result validate_parts(const limn_pack *pack, const limn_file_class *class) {
     const limn_file_chunk *const chunk = find_chunk(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_COLUMNS);
-    const uint64_t size =
-        LIMNI_PIECE_COUNT * (1 + (uint64_t) class->control_count) * sizeof(uint16_t);
+    const uint64_t size = limn_file_columns_size(class) * sizeof(uint16_t);
+    const limn_domain *const domain = limn_domain_get((limn_domain_kind) class->domain);
     if (!chunk || class->pair_count || class->table_offset % sizeof(uint16_t) != 0 ||
         class->table_offset > chunk->size || size > chunk->size - class->table_offset)
         return LIMN_ERROR_PIECE;
@@ -209,7 +213,8 @@ static limn_result validate_parts(const limn_pack *pack, const limn_file_class *
     for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++, columns += class->control_count) {
         if (words[p] >= pack->piece_count) return LIMN_ERROR_PIECE;
         const limn_file_piece *const piece = &pack->pieces[words[p]];
-        if (piece->kind != limni_piece_kind_of(p) || piece->table_count != class->table_count)
+        if (piece->domain != class->domain || piece->kind != limni_piece_kind_of(domain, p) ||
+            piece->table_count != class->table_count)
             return LIMN_ERROR_PIECE;
         TRY(validate_columns(columns, class->control_count, piece->control_count));
     }
@@ -224,8 +229,9 @@ static limn_result validate_class(const limn_pack *pack, const limn_file_chunk *
     if (class->control_count < domain->corner_count) return LIMN_ERROR_CLASS;
     if (class->depth == LIMN_FORMAT_PIECE_DEPTH) return validate_parts(pack, class);
     if (class->depth != LIMN_FORMAT_DEPTH) return LIMN_ERROR_CLASS;
-    if (class->pair_count && (class->control_count > LIMN_FORMAT_PAIRED_MAX ||
-                              2u * class->pair_count >= class->control_count))
+    if (class->pair_count &&
+        (class->domain == LIMN_DOMAIN_QUAD || class->control_count > LIMN_FORMAT_PAIRED_MAX ||
+         2u * class->pair_count >= class->control_count))
         return LIMN_ERROR_CLASS;
     return are_tables_inside(tables, class->table_offset, class->table_count, class->control_count,
                              limn_file_row_stride(class))

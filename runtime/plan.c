@@ -26,7 +26,7 @@ uint64_t limn_plan_first_vertex(const limn_plan *plan, uint32_t patch_index) {
 // ---- Levels of detail
 
 enum {
-    TEMPLATE_MAX = 256,
+    TEMPLATE_MAX = 979,
     PLANES = 6 ///< of a view
 };
 
@@ -232,10 +232,12 @@ static void finish_patches(const planner *p, float lowered, limn_plan *plan) {
 /// Draws in the order of templates, and of patches within each.
 static void make_draws(const planner *p, const limn_template *templates, limn_draw *draws,
                        limn_plan *plan) {
-    uint32_t next[TEMPLATE_MAX + 1] = {0};
+    const uint32_t template_count = limn_template_count(p->mesh->domain);
+    uint32_t next[TEMPLATE_MAX + 1];
+    memset(next, 0, (template_count + 1) * sizeof *next);
     for (uint32_t i = 0; i < p->patch_count; i++)
         next[p->patches[i].template_index + 1]++;
-    for (uint32_t t = 0; t < TEMPLATE_MAX; t++)
+    for (uint32_t t = 0; t < template_count; t++)
         next[t + 1] += next[t];
     for (uint32_t i = 0; i < p->patch_count; i++) {
         const limn_plan_patch *const item = &p->patches[i];

@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-enum { TRIANGLE_MAX = 256, ROW_MAX = 153, NONE = 0xffff };
+enum { TRIANGLE_MAX = 512, ROW_MAX = 289, NONE = 0xffff };
 
 /// The triangles of one template.
 typedef struct triangulation {
@@ -45,18 +45,40 @@ static void triangulate(const limn_domain *domain, uint32_t level,
 
 // ---- Strips
 
-/// The triangle on the left of each directed edge between rows.
+/// The triangle on the left of each directed edge between rows: edges are ordered by the row that
+/// they leave.
 typedef struct edge_index {
-    uint16_t triangles[ROW_MAX][ROW_MAX]; ///< NONE: there is none
+    uint16_t first[ROW_MAX + 1]; ///< edge of each row
+    struct {
+        uint16_t end, triangle;
+    } edges[3 * TRIANGLE_MAX];
 } edge_index;
 
 static void index_edges(const triangulation *t, edge_index *left) {
-    memset(left, 0xff, sizeof *left);
+    uint16_t next[ROW_MAX + 1] = {0};
+    for (uint32_t i = 0; i < t->count; i++) {
+        for (uint32_t k = 0; k < 3; k++)
+            next[t->corners[i][k] + 1]++;
+    }
+    for (uint32_t row = 0; row < ROW_MAX; row++)
+        next[row + 1] = (uint16_t)(next[row + 1] + next[row]);
+    memcpy(left->first, next, sizeof next);
     for (uint32_t i = 0; i < t->count; i++) {
         const uint16_t *const c = t->corners[i];
-        for (uint32_t k = 0; k < 3; k++)
-            left->triangles[c[k]][c[(k + 1) % 3]] = (uint16_t)i;
+        for (uint32_t k = 0; k < 3; k++) {
+            const uint16_t place = next[c[k]]++;
+            left->edges[place].end = c[(k + 1) % 3];
+            left->edges[place].triangle = (uint16_t)i;
+        }
     }
+}
+
+/// NONE: there is none.
+static uint32_t triangle_left_of(const edge_index *left, uint16_t a, uint16_t b) {
+    for (uint32_t e = left->first[a]; e < left->first[a + 1]; e++) {
+        if (left->edges[e].end == b) return left->edges[e].triangle;
+    }
+    return NONE;
 }
 
 static uint16_t corner_behind(const uint16_t c[3], uint16_t a, uint16_t b) {
@@ -76,7 +98,7 @@ static uint32_t follow_strip(const triangulation *t, const edge_index *left, uin
         const uint16_t corner = corner_behind(t->corners[next], a, b);
         strip[length++] = corner;
         // Triangle k of a strip is k, k + 1, k + 2 for even k, and k + 1, k, k + 2 for odd.
-        next = length % 2 ? left->triangles[corner][b] : left->triangles[b][corner];
+        next = length % 2 ? triangle_left_of(left, corner, b) : triangle_left_of(left, b, corner);
     }
     return length;
 }
@@ -162,6 +184,7 @@ uint32_t limn_template_write(const limn_domain *domain, uint32_t index, limn_top
 uint32_t limn_templates_write(const limn_domain *domain, limn_topology topology,
                               uint32_t index_size, void *indices, limn_template *templates) {
     LIMNI_REQUIRE(domain && (index_size == 1 || index_size == 2), 0);
+    if (index_size == 1 && domain->row_counts[LIMN_LEVEL_MAX] > (LIMN_RESTART & 0xff)) return 0;
     uint32_t total = 0;
     for (uint32_t index = 0; index < limn_template_count(domain); index++) {
         uint16_t own[LIMN_TEMPLATE_INDEX_MAX];
@@ -181,33 +204,41 @@ uint32_t limn_templates_write(const limn_domain *domain, limn_topology topology,
 
 /// One row of cells as a strip, from right to left, so that all triangles are counter-clockwise.
 /// `triangles` points to its triangles and is moved on. Returns the number of rows.
-static uint32_t cell_row_strip(const uint16_t **triangles, uint32_t cells, uint16_t *strip) {
-    uint16_t bottom[LIMN_GRID_SIZE + 1], top[LIMN_GRID_SIZE];
+static uint32_t cell_row_strip(const uint16_t **triangles, uint32_t cells, bool quads,
+                               uint16_t *strip) {
+    uint16_t bottom[LIMN_GRID_SIZE + 1], top[LIMN_GRID_SIZE + 1];
+    if (quads) top[0] = (*triangles)[5];
     for (uint32_t i = 0; i < cells; i++) {
-        const uint16_t *const triangle = *triangles; // a, b below, c above; then b, d, c if inside
-        bottom[i] = triangle[0], bottom[i + 1] = triangle[1], top[i] = triangle[2];
-        *triangles += i + 1 < cells ? 6 : 3;
+        // Of a quad's cell a, b below, d above b; then a, d, c. Of a triangle's a, b, c above a; and
+        // then b, d, c if that is inside.
+        const uint16_t *const triangle = *triangles;
+        bottom[i] = triangle[0], bottom[i + 1] = triangle[1], top[i + 1] = triangle[2];
+        *triangles += quads || i + 1 < cells ? 6 : 3;
     }
     uint32_t length = 0;
     for (uint32_t i = cells; i > 0; i--) {
         strip[length++] = bottom[i];
-        strip[length++] = top[i - 1];
+        strip[length++] = top[i];
     }
     strip[length++] = bottom[0];
+    if (quads) strip[length++] = top[0];
     return length;
 }
 
 uint32_t limn_expanded_strip(const limn_domain *domain, uint32_t level, uint16_t *rows) {
     LIMNI_REQUIRE(domain && level <= LIMN_LEVEL_MAX && rows, 0);
+    const bool quads = domain->kind == LIMN_DOMAIN_QUAD;
     const uint16_t *triangles = domain->indices[level];
     uint32_t count = 0;
-    for (uint32_t cells = 1u << level; cells > 0; cells--) {
-        uint16_t strip[2 * LIMN_GRID_SIZE + 1];
-        const uint32_t length = cell_row_strip(&triangles, cells, strip);
-        if (count) { // three more, as strips have odd lengths and each must begin at an even place
+    for (uint32_t row = 0; row < 1u << level; row++) {
+        uint16_t strip[2 * LIMN_GRID_SIZE + 2];
+        const uint32_t cells = quads ? 1u << level : (1u << level) - row;
+        const uint32_t length = cell_row_strip(&triangles, cells, quads, strip);
+        if (count) { // each must begin at an even place
             rows[count] = rows[count - 1];
-            rows[count + 1] = rows[count + 2] = strip[0];
-            count += 3;
+            rows[count + 1] = strip[0];
+            count += 2;
+            if (length % 2) rows[count++] = strip[0];
         }
         memcpy(rows + count, strip, length * sizeof *strip);
         count += length;

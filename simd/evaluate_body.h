@@ -154,8 +154,9 @@ static inline void place_edge_normals(const limni_layout *layout, size_t corner_
     for (size_t edge = 0; edge < corner_count; edge++) {
         const uint16_t *const places = &layout->rows[edge * LIMNI_EDGE_ROWS];
         const size_t staged = STAGED + edge * padded;
-        for (size_t r = 0; r < count && r < 4; r++)
-            copy_row(normals, staged + r, places[r]);
+        for (size_t r = 0; r < count && r < 4; r++) {
+            if (places[r] != LIMNI_NO_ROW) copy_row(normals, staged + r, places[r]);
+        }
         for (size_t r = 4; r < count; r += 4)
             copy_four_rows(normals, staged + r, normals, places[r]);
     }
@@ -166,7 +167,7 @@ static inline void place_edge_normals(const limni_layout *layout, size_t corner_
 static inline void find_table_normals(const limn_domain *domain, const wanted *what,
                                       scratch *rows) {
     const limni_layout *const layout = what->layout;
-    for (uint32_t level = LIMNI_INSIDE_LEVEL; level <= what->level; level++) {
+    for (uint32_t level = layout->inside_level; level <= what->level; level++) {
         const size_t first = limni_first_inside(domain, level);
         find_normals(&rows->across, first, domain->row_counts[level] - first, &rows->along);
     }

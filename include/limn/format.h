@@ -119,6 +119,9 @@ typedef struct limn_file_chunk {
     uint64_t size;   ///< in bytes, without padding
 } limn_file_chunk;
 
+/// The limn_domain_kind of quads.
+#define LIMN_FORMAT_QUAD 1u
+
 /// What a class's `depth` is: of a table for all levels; or of its four pieces, the faces that a
 /// level of subdivision makes of a base face, where the mesh is isolated.
 #define LIMN_FORMAT_DEPTH 4u
@@ -144,7 +147,8 @@ typedef struct limn_file_class {
 typedef struct limn_file_piece {
     uint64_t table_offset;  ///< as for a class: of float[control_count][row_stride]
     uint32_t control_count; ///< columns
-    uint16_t kind;          ///< 0: at a corner, 40 rows a column; 1: in the middle, 48
+    uint8_t kind;           ///< 0: at a corner; 1: in the middle of a triangle
+    uint8_t domain;         ///< limn_domain_kind
     uint16_t table_count;   ///< as for a class
 } limn_file_piece;
 
@@ -173,6 +177,7 @@ typedef struct limn_file_side {
 
 /// Rows of a column, with padding.
 static inline uint32_t limn_file_row_stride(const limn_file_class *file_class) {
+    if (file_class->domain == LIMN_FORMAT_QUAD) return 296;
     return file_class->pair_count ? 112 : 160;
 }
 
@@ -190,6 +195,7 @@ static inline uint64_t limn_file_columns_size(const limn_file_class *file_class)
 }
 
 static inline uint32_t limn_file_piece_stride(const limn_file_piece *piece) {
+    if (piece->domain == LIMN_FORMAT_QUAD) return 80;
     return piece->kind ? 48 : 40;
 }
 

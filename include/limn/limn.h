@@ -93,6 +93,8 @@ const char *limn_result_text(limn_result result);
 
 typedef enum limn_domain_kind {
     LIMN_DOMAIN_TRIANGLE, ///< v0 + i/16 (v1 - v0) + j/16 (v2 - v0), i + j <= 16
+    LIMN_DOMAIN_QUAD,     ///< with u = i/16, v = j/16: (1 - u) (1 - v) v0 + u (1 - v) v1 + u v v2 +
+                          ///< (1 - u) v v3; cells are cut from (i, j) to (i + 1, j + 1)
     LIMN_DOMAIN_COUNT
 } limn_domain_kind;
 
@@ -140,15 +142,15 @@ typedef enum limn_topology {
 } limn_topology;
 
 #define LIMN_RESTART 0xffffu         ///< primitive restart; 0xff where indices are bytes
-#define LIMN_TEMPLATE_INDEX_MAX 1024 ///< indices of any template
-#define LIMN_EXPANDED_STRIP_MAX 333  ///< rows of limn_expanded_strip()
+#define LIMN_TEMPLATE_INDEX_MAX 2048 ///< indices of any template
+#define LIMN_EXPANDED_STRIP_MAX 574  ///< rows of limn_expanded_strip()
 
 /// Where the indices of a template are among those of all.
 typedef struct limn_template {
     uint32_t first_index, index_count;
 } limn_template;
 
-/// How many templates there are: 225 for triangles. Never fails; any thread.
+/// How many templates there are: 225 for triangles, 979 for quads. Never fails; any thread.
 uint32_t limn_template_count(const limn_domain *domain);
 
 /// The template of a patch of level `level` <= LIMN_LEVEL_MAX. Never fails; any thread.
@@ -164,9 +166,10 @@ uint32_t limn_template_write(const limn_domain *domain, uint32_t index, limn_top
                              uint16_t indices[LIMN_TEMPLATE_INDEX_MAX]);
 
 /// Writes all templates, one behind the other, in milliseconds. Does not allocate, never fails; any
-/// thread. Returns the number of indices: with NULL, how many there must be room for.
+/// thread. Returns the number of indices: with NULL, how many there must be room for; 0, and nothing
+/// is written, where they do not fit their size.
 ///
-/// index_size  bytes of an index, 1 or 2
+/// index_size  bytes of an index, 2; or 1, where rows are fewer than 255: of triangles
 /// indices     out, or NULL
 /// templates   out: [limn_template_count()], or NULL
 uint32_t limn_templates_write(const limn_domain *domain, limn_topology topology,

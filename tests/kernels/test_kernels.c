@@ -130,10 +130,11 @@ static uint64_t make_pieces(made *m, uint32_t c, uint64_t table, uint16_t **colu
             const bool has = slot < 3 || next_random() % 4;
             of_piece[slot] = has ? used++ : LIMN_FORMAT_NO_COLUMN;
         }
-        m->pieces[index] = (limn_file_piece){.table_offset = (table + size) * sizeof(float),
-                                             .control_count = used,
-                                             .kind = limni_piece_kind_of(p),
-                                             .table_count = 3};
+        m->pieces[index] = (limn_file_piece){
+            .table_offset = (table + size) * sizeof(float),
+            .control_count = used,
+            .kind = (uint8_t)limni_piece_kind_of(limn_domain_get(LIMN_DOMAIN_TRIANGLE), p),
+            .table_count = 3};
         const uint32_t stride = limn_file_piece_stride(&m->pieces[index]);
         for (uint32_t t = 0; t < 3; t++)
             fill_table(used, stride, m->tables + table + size + (size_t)t * used * stride);
