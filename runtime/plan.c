@@ -149,7 +149,7 @@ static void list_patches(planner *p) {
         if (corner_count == 3) { // for the compiler
             list_run(p, &p->mesh->runs[r], 3, &block);
         } else {
-            list_run(p, &p->mesh->runs[r], corner_count, &block);
+            list_run(p, &p->mesh->runs[r], 4, &block);
         }
     }
     if (p->patch_count % LIMNI_LOD_BLOCK) measure_block(p, &block);

@@ -224,7 +224,7 @@ typedef struct chosen {
 
 /// The terms of one patch.
 typedef struct lists {
-    term *ascending; ///< [control_count]; for pieces four times as many, and one
+    term *ascending; ///< [control_count]; for pieces four times as many
     term *absolute;  ///< [LIMNI_PLAIN_TERMS] the same relative to nothing; NULL: not wanted
     term *folded;    ///< [LIMNI_PLAIN_TERMS]
 } lists;
@@ -360,7 +360,7 @@ static inline void sum_pieces(assembly *a, const limni_run *run, const chosen *w
     const piece_points points = {.relative = {relative, absolute},
                                  .absolute = {absolute, absolute + count},
                                  .buffer = absolute + count,
-                                 .moved = absolute + 2 * count + 1};
+                                 .moved = absolute + 2 * count};
     for (size_t p = 0; p < LIMNI_PIECE_COUNT; p++)
         sum_piece_positions(&a->items[p], &points, origin, which->level, &a->staged.positions);
     place_rows(a->layouts->position_copies, a->layouts->position_copy_counts[which->level],
@@ -443,24 +443,25 @@ static LIMNI_INLINE void evaluate_assembly(const limni_run *run, gathering *g,
     evaluate_patches(run, g, from, target, false, &pieces);
 }
 
-/// Apart, so that runs with tables keep their registers, and those of few points their stack.
+/// All three apart, so that runs with tables keep their registers, and each takes no more stack than
+/// its own.
 static LIMNI_NOINLINE void evaluate_in_pieces(const limni_run *run, const limni_points *from,
                                               const limni_target *target) {
-    _Alignas(16) term ascending[4 * LIMN_FORMAT_NARROW_SLOTS + 1];
+    _Alignas(16) term ascending[4 * LIMN_FORMAT_NARROW_SLOTS];
     gathering g = {.controls = from->controls, .slot_size = 1, .to.ascending = ascending};
     evaluate_assembly(run, &g, from, target);
 }
 
 static LIMNI_NOINLINE void evaluate_in_wide_pieces(const limni_run *run, const limni_points *from,
                                                    const limni_target *target) {
-    _Alignas(16) term ascending[4 * LIMN_FORMAT_CONTROLS_MAX + 1];
+    _Alignas(16) term ascending[4 * LIMN_FORMAT_CONTROLS_MAX];
     gathering g = {.controls = from->controls, .slot_size = 2, .to.ascending = ascending};
     evaluate_assembly(run, &g, from, target);
 }
 
 /// Each way to store has its own loop over patches.
-static LIMNI_INLINE void evaluate_with_tables(const limni_run *run, const limni_points *from,
-                                              const limni_target *target) {
+static LIMNI_NOINLINE void evaluate_with_tables(const limni_run *run, const limni_points *from,
+                                                const limni_target *target) {
     _Alignas(16) term absolute[LIMNI_PLAIN_TERMS], folded[LIMNI_PLAIN_TERMS];
     const bool apart = from->normals && run->control_count <= LIMNI_PLAIN_TERMS;
     gathering g = {.controls = from->controls,

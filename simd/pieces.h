@@ -14,7 +14,7 @@
 typedef struct piece_points {
     terms relative; ///< to the origin of the mesh
     terms absolute; ///< where there are normals
-    term *buffer;   ///< [as many, and one] for the terms of a piece
+    term *buffer;   ///< [as many] for the terms of a piece
     term *moved;    ///< [as many] for the same relative to some other point
 } piece_points;
 
@@ -85,6 +85,9 @@ static inline void sum_piece_tangents(const limni_piece *piece, terms absolute, 
     }
 }
 
+/// Copies of fewer than four rows also take what an earlier patch, or nothing yet, has left behind
+/// them: bits that go to rows that the next copy writes, or behind the last row, where they are
+/// computed with but never stored.
 static inline void place_rows(const limni_piece_copy *copies, size_t count, const vectors *staged,
                               vectors *rows) {
     for (size_t c = 0; c < count; c++)

@@ -10,13 +10,14 @@ typedef struct column_place {
     const float *table;
     uint32_t at, stride, pair_count;
     uint32_t column_count;
-    uint32_t edge; ///< of tangents, whose block it is in; or else 3
+    uint32_t edge; ///< of tangents, whose block it is in; or else as many as there are
     bool paired, image;
     const uint16_t *columns; ///< of the slots; NULL: the slots themselves
 } column_place;
 
 /// In one table of a class: 0 of positions, 1 and 2 of tangents.
-static inline column_place place_in_table(const limni_run *run, uint32_t table, uint32_t row) {
+static inline column_place place_in_table(const limni_run *run, uint32_t corner_count,
+                                          uint32_t table, uint32_t row) {
     const limni_layout *const layout = table ? run->tangent_layout : run->layout;
     column_place place = {.table = run->table + table * run->table_stride,
                           .stride = layout->row_stride,
@@ -28,12 +29,14 @@ static inline column_place place_in_table(const limni_run *run, uint32_t table, 
         place.image = place.paired && layout->mirror_rows[pair / 8] + pair % 8 == row;
         if (place.image || layout->rows[place.at] == row) break;
     }
-    place.edge = table && place.at / LIMNI_EDGE_ROWS < 3 ? place.at / LIMNI_EDGE_ROWS : 3;
+    place.edge = table && place.at / LIMNI_EDGE_ROWS < corner_count ? place.at / LIMNI_EDGE_ROWS
+                                                                    : corner_count;
     return place;
 }
 
 /// In the tables of the pieces of a class. Found by the copy that takes it to its place.
-static inline column_place place_in_pieces(const limni_run *run, uint32_t table, uint32_t row) {
+static inline column_place place_in_pieces(const limni_run *run, uint32_t corner_count,
+                                           uint32_t table, uint32_t row) {
     const limni_piece_copy *copy =
         table ? run->pieces->normal_copies : run->pieces->position_copies;
     const limni_piece_copy *const end =
@@ -50,9 +53,10 @@ static inline column_place place_in_pieces(const limni_run *run, uint32_t table,
                           .at = staged - piece.first_place,
                           .stride = piece.positions->row_stride,
                           .column_count = run->records[run->parts[p]].control_count,
-                          .edge = 3,
+                          .edge = corner_count,
                           .columns = piece.columns};
-    if (table && p < 3 && place.at < 16) place.edge = (p + (place.at < 8 ? 0 : 2)) % 3;
+    if (table && p < corner_count && place.at < 16)
+        place.edge = (p + (place.at < 8 ? 0 : corner_count - 1)) % corner_count;
     return place;
 }
 
@@ -60,7 +64,9 @@ static inline column_place place_in_pieces(const limni_run *run, uint32_t table,
 static inline column_place place_of_row(const limn_mesh *mesh, uint32_t run_index, uint32_t table,
                                         uint32_t row) {
     const limni_run part = limni_run_part(mesh, &mesh->runs[run_index], 0, 1);
-    return part.pieces ? place_in_pieces(&part, table, row) : place_in_table(&part, table, row);
+    const uint32_t corner_count = mesh->domain->corner_count;
+    return part.pieces ? place_in_pieces(&part, corner_count, table, row)
+                       : place_in_table(&part, corner_count, table, row);
 }
 
 /// The coefficient of the point in `slot`. Of paired rows, it is a sum of two.
