@@ -23,7 +23,7 @@ static uint64_t sum_edge(const limni_mesh *mesh, const limni_classes *classes,
                          bool along, bool crease) {
     const limni_class *const class = &classes->items[key->class_index];
     uint64_t sum = 0;
-    for (uint32_t slot = 0; slot < base->neighbourhood.control_count; slot++) {
+    for (uint32_t slot = 0; slot < base->control_count; slot++) {
         if (key->slots[slot] == LIMNI_SLOT_UNUSED) continue;
         const limni_edge_prints *const prints = &class->prints[key->slots[slot]];
         const limni_edge_print print = along ? prints->along[edge] : prints->against[edge];
@@ -36,7 +36,8 @@ static uint64_t sum_edge(const limni_mesh *mesh, const limni_classes *classes,
 
 /// Whether there is no patch on one side of a half-edge.
 static bool is_open(const limni_mesh *mesh, uint32_t h) {
-    return mesh->pairs[h] == LIMNI_NONE || mesh->holes[h / 3] || mesh->holes[mesh->pairs[h] / 3];
+    return mesh->pairs[h] == LIMNI_NONE || mesh->holes[mesh->face_of[h]] ||
+           mesh->holes[mesh->face_of[mesh->pairs[h]]];
 }
 
 static void sum_edges(limni_classifier *classifier, const limni_classes *classes,
@@ -46,8 +47,9 @@ static void sum_edges(limni_classifier *classifier, const limni_classes *classes
         if (mesh->holes[face]) continue;
         const uint32_t rotation = assigned->rotations[face];
         const limni_local_base *const base = limni_local_base_at(classifier, face, rotation);
-        for (uint32_t h = 3 * face; h < 3 * face + 3; h++) {
-            const uint32_t edge = (h % 3 + 3 - rotation) % 3;
+        const uint32_t first = mesh->offsets[face], size = limni_face_size(mesh, face);
+        for (uint32_t h = first; h < first + size; h++) {
+            const uint32_t edge = (h - first + size - rotation) % size;
             const bool along = mesh->pairs[h] == LIMNI_NONE || h < mesh->pairs[h];
             const bool crease = limni_is_crease(classifier->sharpness, mesh, h);
             sums[h] = sum_edge(mesh, classes, &classes->keys[assigned->keys[face]], base, edge,
@@ -60,18 +62,19 @@ limn_bake_status limni_check_agreement(limni_context *context, limni_classifier 
                                        const limni_classes *classes,
                                        const limni_assignment *assigned) {
     const limni_mesh *const mesh = classifier->mesh;
-    uint64_t *const sums = limni_allocate(context, 3 * (size_t)mesh->face_count, sizeof *sums);
+    uint64_t *const sums = limni_allocate(context, mesh->half_edge_count, sizeof *sums);
     if (!sums) return LIMN_BAKE_MEMORY;
     sum_edges(classifier, classes, assigned, sums);
     limn_bake_status status = LIMN_BAKE_OK;
-    for (uint32_t h = 0; h < 3 * mesh->face_count && status == LIMN_BAKE_OK; h++) {
+    for (uint32_t h = 0; h < mesh->half_edge_count && status == LIMN_BAKE_OK; h++) {
         const uint32_t pair = mesh->pairs[h];
         if (is_open(mesh, h) || pair < h || sums[h] == sums[pair]) continue;
         limni_place a, b;
         status = limni_fail(context, LIMN_BAKE_INTERNAL,
                             "%s: defect in the baker: %s and %s disagree on their common edge",
-                            mesh->path ? mesh->path : mesh->name, limni_face_place(mesh, h / 3, a),
-                            limni_face_place(mesh, pair / 3, b));
+                            mesh->path ? mesh->path : mesh->name,
+                            limni_face_place(mesh, mesh->face_of[h], a),
+                            limni_face_place(mesh, mesh->face_of[pair], b));
     }
     limni_release(context, sums);
     return status;

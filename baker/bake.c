@@ -114,28 +114,16 @@ static void release_source(limni_context *context, const limni_source *source) {
     limni_release(context, source->tags.holes);
 }
 
-static void release_mesh(limni_context *context, const limni_mesh *mesh) {
-    limni_release(context, mesh->origins);
-    limni_release(context, mesh->faces);
-    limni_release(context, mesh->polygons);
-    limni_release(context, mesh->pairs);
-    limni_release(context, mesh->first);
-    limni_release(context, mesh->valences);
-    limni_release(context, mesh->edge_sharpness);
-    limni_release(context, mesh->vertex_sharpness);
-    limni_release(context, mesh->holes);
-}
-
 /// Settles what LIMN_ISOLATE_AUTO means for this mesh, and says why.
-static limn_bake_status settle_isolation(limni_context *context, const limni_mesh *mesh,
+static limn_bake_status settle_isolation(limni_context *context, const limni_base *base,
                                          limni_rules *rules, limni_footprint footprints[2]) {
     if (rules->isolate != LIMN_ISOLATE_AUTO) return LIMN_BAKE_OK;
-    LIMNI_TRY(limni_choose_isolation(context, mesh, rules, footprints, &rules->isolate));
+    LIMNI_TRY(limni_choose_isolation(context, base, rules, footprints, &rules->isolate));
     limni_note(
         context,
         "%s: %s: its tables would take %llu bytes, or %llu isolated; with its patches %llu, or "
         "%llu",
-        mesh->name, rules->isolate == LIMN_ISOLATE_ALWAYS ? "isolated" : "not isolated",
+        base->mesh->name, rules->isolate == LIMN_ISOLATE_ALWAYS ? "isolated" : "not isolated",
         (unsigned long long)footprints[0].tables, (unsigned long long)footprints[1].tables,
         (unsigned long long)footprints[0].total, (unsigned long long)footprints[1].total);
     return LIMN_BAKE_OK;
@@ -159,16 +147,20 @@ static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     LIMNI_TRY(apply_rules(context, &rules, &mesh));
     note_rules(context, &rules, source->tags.is_lomont, &mesh);
     limni_footprint footprints[2] = {0};
-    LIMNI_TRY(settle_isolation(context, &mesh, &rules, footprints));
+    limni_base base;
+    LIMNI_TRY(limni_base_begin(context, &mesh, &rules, &base));
+    LIMNI_TRY(settle_isolation(context, &base, &rules, footprints));
     limni_patches *const patches = &baker->meshes[baker->mesh_count];
     LIMNI_TRY(
-        limni_patches_build(context, &mesh, &rules, &baker->classes, &baker->pieces, patches));
-    LIMNI_TRY(limni_edge_errors_build(context, &mesh, &baker->classes, &baker->pieces, patches));
+        limni_patches_build(context, &base, &rules, &baker->classes, &baker->pieces, patches));
+    LIMNI_TRY(
+        limni_edge_errors_build(context, base.mesh, &baker->classes, &baker->pieces, patches));
     memcpy(patches->footprints, footprints, sizeof footprints);
     if (patches->controls != mesh.controls) limni_release(context, mesh.controls);
     baker->mesh_count++;
     release_source(context, source);
-    release_mesh(context, &mesh);
+    limni_base_end(context, &base);
+    limni_mesh_end(context, &mesh);
     return LIMN_BAKE_OK;
 }
 

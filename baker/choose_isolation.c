@@ -21,30 +21,30 @@ static uint64_t size_of_patches(const limni_patches *patches) {
     const uint64_t points = record->point_count - record->control_count;
     uint64_t size = record->index_count * sizeof *patches->indices + patches->slots_size;
     if (points)
-        size += points * sizeof *patches->controls + (1 + points) * sizeof *patches->stencils +
-                patches->stencils[points] * sizeof *patches->terms;
+        size += points * sizeof *patches->controls + (1 + points) * sizeof(uint32_t) +
+                patches->stencils.offsets[points] * sizeof(limn_file_term);
     return size;
 }
 
-static limn_bake_status try_bake(limni_context *context, const limni_mesh *mesh, limni_rules rules,
+static limn_bake_status try_bake(limni_context *context, const limni_base *base, limni_rules rules,
                                  limn_isolate isolate, limni_footprint *footprint) {
     limni_classes classes = {0}, pieces = {0};
     limni_patches patches;
     rules.isolate = isolate;
-    LIMNI_TRY(limni_patches_build(context, mesh, &rules, &classes, &pieces, &patches));
+    LIMNI_TRY(limni_patches_build(context, base, &rules, &classes, &pieces, &patches));
     footprint->tables = size_of_tables(&classes) + size_of_tables(&pieces);
     footprint->total = footprint->tables + size_of_patches(&patches);
     return LIMN_BAKE_OK;
 }
 
-limn_bake_status limni_choose_isolation(limni_context *context, const limni_mesh *mesh,
+limn_bake_status limni_choose_isolation(limni_context *context, const limni_base *base,
                                         const limni_rules *rules, limni_footprint footprints[2],
                                         limn_isolate *isolate) {
     limn_bake_status status[2] = {LIMN_BAKE_OK};
     for (int way = 0; way < 2; way++) {
         limni_context scratch = {.desc = context->desc}; // all of the trial goes with it
         scratch.desc.progress = NULL;
-        status[way] = try_bake(&scratch, mesh, *rules,
+        status[way] = try_bake(&scratch, base, *rules,
                                way ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER, &footprints[way]);
         if (way == 0) memcpy(context->error, scratch.error, sizeof context->error);
         limni_release_all(&scratch);

@@ -8,7 +8,7 @@
 ///
 /// footprints  out: not isolated, isolated
 /// isolate     out: LIMN_ISOLATE_NEVER or LIMN_ISOLATE_ALWAYS
-limn_bake_status limni_choose_isolation(limni_context *context, const limni_mesh *mesh,
+limn_bake_status limni_choose_isolation(limni_context *context, const limni_base *base,
                                         const limni_rules *rules, limni_footprint footprints[2],
                                         limn_isolate *isolate);
 

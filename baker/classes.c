@@ -4,15 +4,16 @@
 #include "hash.h"
 #include "limn/limn.h"
 #include "mirror.h"
+#include "subdivide.h"
 
 #include <string.h>
 
 // ---- Dictionaries
 
-static uint64_t key_hash(limni_table_kind kind, const uint32_t *words, uint32_t size) {
-    uint64_t hash = 3 * (uint64_t)size + kind;
-    for (uint32_t w = 0; w < size; w++)
-        hash = limni_hash_mix(hash, words[w]);
+static uint64_t key_hash(const limni_class_key *key) {
+    uint64_t hash = 3 * (uint64_t)key->size + key->kind;
+    for (uint32_t w = 0; w < key->size; w++)
+        hash = limni_hash_mix(hash, key->words[w]);
     return hash;
 }
 
@@ -28,22 +29,21 @@ static uint64_t class_hash(const limni_class *class) {
     return hash;
 }
 
-/// Where a key is in the dictionary, or where it would go.
-static uint32_t *find_key(const limni_classes *classes, limni_table_kind kind,
-                          const uint32_t *words, uint32_t size) {
+/// Where an equal key is in the dictionary, or where this one would go.
+static uint32_t *find_key(const limni_classes *classes, const limni_class_key *key) {
     const limni_index_table *const table = &classes->by_key;
-    uint32_t at = (uint32_t)key_hash(kind, words, size) & (table->size - 1);
+    uint32_t at = (uint32_t)key_hash(key) & (table->size - 1);
     for (; table->indices[at] != LIMNI_NONE; at = (at + 1) & (table->size - 1)) {
-        const limni_class_key *const key = &classes->keys[table->indices[at]];
-        if (key->kind == kind && key->size == size &&
-            memcmp(key->words, words, size * sizeof *words) == 0)
+        const limni_class_key *const other = &classes->keys[table->indices[at]];
+        if (other->domain == key->domain && other->kind == key->kind && other->size == key->size &&
+            memcmp(other->words, key->words, key->size * sizeof *key->words) == 0)
             break;
     }
     return &table->indices[at];
 }
 
 static bool are_equal(const limni_class *a, const limni_class *b) {
-    if (a->kind != b->kind || a->control_count != b->control_count ||
+    if (a->domain != b->domain || a->kind != b->kind || a->control_count != b->control_count ||
         a->table_count != b->table_count || a->pair_count != b->pair_count ||
         !a->parts != !b->parts)
         return false;
@@ -83,7 +83,7 @@ static limn_bake_status grow(limni_context *context, limni_classes *classes) {
     LIMNI_TRY(clear_table(context, capacity, &classes->by_key));
     LIMNI_TRY(clear_table(context, capacity, &classes->by_table));
     for (uint32_t k = 0; k < classes->key_count; k++)
-        *find_key(classes, keys[k].kind, keys[k].words, keys[k].size) = k;
+        *find_key(classes, &keys[k]) = k;
     for (uint32_t c = 0; c < classes->count; c++)
         *find_class(classes, &items[c]) = c;
     return LIMN_BAKE_OK;
@@ -91,10 +91,11 @@ static limn_bake_status grow(limni_context *context, limni_classes *classes) {
 
 // ---- Tables
 
-enum { ROW_COUNT = 153 };
+enum { ROW_COUNT = 289 };
 
 /// What a class is made from.
 typedef struct class_maker {
+    const limn_domain *domain;
     limni_table_kind kind;
     int depth;
     limni_coefficients coefficients;
@@ -125,9 +126,8 @@ typedef float slot_columns[3][ROW_COUNT];
 /// The columns of a slot along one edge, in grid steps of the depth. The neighbour has the
 /// positions in the opposite order, and the tangents with the opposite sign as well; they are not
 /// those of corners.
-static limni_edge_print print_edge(float (*columns)[ROW_COUNT], uint32_t table_count, uint32_t step,
-                                   uint32_t edge, bool along) {
-    const uint16_t *const rows = limn_domain_get(LIMN_DOMAIN_TRIANGLE)->edge_rows[edge];
+static limni_edge_print print_edge(const uint16_t *rows, float (*columns)[ROW_COUNT],
+                                   uint32_t table_count, uint32_t step, bool along) {
     bool any = false, any_tangent = false;
     limni_edge_print print = {.positions =
                                   print_column(0, columns[0], rows, 0, step, along, false, &any)};
@@ -178,15 +178,15 @@ static float pair_value(const class_maker *maker, uint32_t table, uint32_t row, 
     return limni_fixed_to_float(own);
 }
 
-static const limni_piece_layout *piece_layout_of(limni_table_kind kind, bool tangents) {
-    const limni_pieces *const pieces = limni_pieces_get(LIMN_DOMAIN_TRIANGLE);
-    return &(tangents ? pieces->tangents : pieces->positions)[kind - LIMNI_TABLE_CORNER];
+static const limni_piece_layout *piece_layout_of(const class_maker *maker, bool tangents) {
+    const limni_pieces *const pieces = limni_pieces_get(maker->domain->kind);
+    return &(tangents ? pieces->tangents : pieces->positions)[maker->kind - LIMNI_TABLE_CORNER];
 }
 
 /// What pads a column stays zero.
 static void fill_piece_column(const class_maker *maker, uint32_t table, const float rows[ROW_COUNT],
                               float *column) {
-    const limni_piece_layout *const layout = piece_layout_of(maker->kind, table > 0);
+    const limni_piece_layout *const layout = piece_layout_of(maker, table > 0);
     for (uint32_t place = 0; place < layout->row_stride; place++) {
         if (layout->rows[place] != LIMNI_NO_ROW) column[place] = rows[layout->rows[place]];
     }
@@ -195,7 +195,7 @@ static void fill_piece_column(const class_maker *maker, uint32_t table, const fl
 static void fill_patch_column(const class_maker *maker, uint32_t table, uint32_t slot,
                               const float rows[ROW_COUNT], float *column) {
     const limni_layout *const layout =
-        limni_layout_get(LIMN_DOMAIN_TRIANGLE, table > 0, maker->pair_count);
+        limni_layout_get(maker->domain->kind, table > 0, maker->pair_count);
     for (uint32_t place = 0; place < layout->row_stride; place++) {
         const uint32_t row = layout->rows[place];
         if (row == LIMNI_NO_ROW) continue;
@@ -221,50 +221,84 @@ static void fill_slot(const class_maker *maker, uint32_t slot, uint32_t column_i
         }
     }
     const uint32_t step = LIMN_GRID_SIZE >> maker->depth;
-    for (uint32_t edge = 0; edge < 3; edge++) {
+    for (uint32_t edge = 0; edge < maker->domain->corner_count; edge++) {
         limni_edge_prints *const prints = &class->prints[column_index];
-        prints->along[edge] = print_edge(rows, class->table_count, step, edge, true);
-        prints->against[edge] = print_edge(rows, class->table_count, step, edge, false);
+        const uint16_t *const along = maker->domain->edge_rows[edge];
+        prints->along[edge] = print_edge(along, rows, class->table_count, step, true);
+        prints->against[edge] = print_edge(along, rows, class->table_count, step, false);
     }
 }
 
-/// The far end of the half edge that starts at the corner of a piece is new, and has tangents,
-/// which go on along the edge.
-static limn_bake_status add_end_tangents(limni_context *context, const limni_rules *rules,
-                                         const limni_neighbourhood *neighbourhood,
-                                         limni_fixed *tangents, size_t table_size) {
-    const limni_star *const star = &neighbourhood->corners[1];
-    const uint32_t slot_count = neighbourhood->control_count, *const twins = neighbourhood->twins;
-    limni_fixed *const masks =
-        limni_allocate(context, 2 * (1 + (size_t)star->count), sizeof *masks);
+/// The tangents of one corner of a piece, which is new, as sums of slots.
+static limn_bake_status add_corner_tangents(limni_context *context, const limni_rules *rules,
+                                            const limni_local_base *base, uint32_t corner,
+                                            uint32_t half_steps, limni_fixed *tangents,
+                                            size_t table_size) {
+    const limni_star *const star = &base->corners[corner];
+    const uint32_t *const twins = base->twins;
+    const uint32_t faces = star->diagonals ? limni_star_face_count(star) : 0;
+    const size_t size = 1 + (size_t)star->count + faces;
+    limni_fixed *const masks = limni_allocate(context, 2 * size, sizeof *masks);
     if (!masks) return LIMN_BAKE_MEMORY;
-    limni_fixed *const along = masks, *const across = masks + 1 + star->count;
-    uint32_t start = 0; // corner 0
-    while (star->ring[start] != 0)
-        start++;
-    LIMNI_TRY(
-        limni_star_tangents(context, rules, star, limni_star_opposite(star, start), along, across));
+    LIMNI_TRY(limni_star_tangents(context, rules, star, half_steps, masks, masks + size));
     for (uint32_t table = 0; table < 2; table++) {
-        limni_fixed *const row = tangents + table * table_size + slot_count; // row 1
-        const limni_fixed *const mask = table ? across : along;
-        row[twins ? twins[1] : 1] += mask[0];
+        limni_fixed *const row =
+            tangents + table * table_size + (size_t)corner * base->control_count;
+        const limni_fixed *const mask = masks + table * size;
+        row[twins[corner]] += mask[0];
         for (uint32_t r = 0; r < star->count; r++)
-            row[twins ? twins[star->ring[r]] : star->ring[r]] += mask[1 + r];
+            row[twins[star->ring[r]]] += mask[1 + r];
+        for (uint32_t f = 0; f < faces; f++)
+            row[twins[star->diagonals[f]]] += mask[1 + star->count + f];
     }
     limni_release(context, masks);
     return LIMN_BAKE_OK;
 }
 
+/// The far end of the half edge that starts at the corner of a piece has tangents, which go on
+/// along the edge, and so has the middle of a quad.
+static limn_bake_status add_end_tangents(limni_context *context, const limni_rules *rules,
+                                         const limni_local_base *base, limni_fixed *tangents,
+                                         size_t table_size) {
+    const limni_star *const star = &base->corners[1];
+    uint32_t start = 0; // corner 0
+    while (star->ring[start] != 0)
+        start++;
+    LIMNI_TRY(add_corner_tangents(context, rules, base, 1, limni_star_opposite(star, start),
+                                  tangents, table_size));
+    if (base->mesh->domain != LIMN_DOMAIN_QUAD) return LIMN_BAKE_OK;
+    return add_corner_tangents(context, rules, base, 2, 0, tangents, table_size);
+}
+
+static limn_bake_status fill_rows(limni_context *context, const limni_rules *rules,
+                                  const limni_local_base *base, const class_maker *maker) {
+    const size_t table_size =
+        (size_t)maker->coefficients.row_count * maker->coefficients.slot_count;
+    const bool with_tangents = maker->coefficients.table_count == 3;
+    const limni_rows rows = {.positions = maker->rows,
+                             .tangents = with_tangents ? maker->rows + table_size : NULL};
+    limni_neighbourhood neighbourhood;
+    LIMNI_TRY(limni_local_neighbourhood(context, base, &neighbourhood));
+    LIMNI_TRY(limni_subdivide(context, rules, &neighbourhood, maker->depth, LIMNI_PROJECT_TO_LIMIT,
+                              &rows));
+    if (with_tangents && maker->kind == LIMNI_TABLE_CORNER)
+        LIMNI_TRY(add_end_tangents(context, rules, base, rows.tangents, table_size));
+    limni_neighbourhood_end(context, &neighbourhood);
+    return LIMN_BAKE_OK;
+}
+
 static limn_bake_status begin_class(limni_context *context, const limni_rules *rules,
-                                    const limni_neighbourhood *neighbourhood, limni_table_kind kind,
+                                    const limni_local_base *base, limni_table_kind kind,
                                     class_maker *maker) {
-    const uint32_t slot_count = neighbourhood->control_count;
+    const limn_domain *const domain = limn_domain_get(base->mesh->domain);
+    const uint32_t slot_count = base->control_count;
     const uint32_t table_count = rules->normals == LIMN_NORMALS_EXACT ? 3 : 1;
     const int depth = kind == LIMNI_TABLE_PATCH ? LIMN_LEVEL_MAX : LIMN_LEVEL_MAX - 1;
-    const uint32_t row_count = limn_domain_get(LIMN_DOMAIN_TRIANGLE)->row_counts[depth];
+    const uint32_t row_count = domain->row_counts[depth];
     const size_t table_size = (size_t)row_count * slot_count;
     limni_fixed *const rows = limni_allocate(context, table_count * table_size, sizeof *rows);
-    *maker = (class_maker){.kind = kind,
+    *maker = (class_maker){.domain = domain,
+                           .kind = kind,
                            .depth = depth,
                            .coefficients = {.rows = rows,
                                             .table_count = table_count,
@@ -274,12 +308,7 @@ static limn_bake_status begin_class(limni_context *context, const limni_rules *r
                            .used = limni_allocate(context, slot_count, sizeof *maker->used),
                            .images = limni_allocate(context, slot_count, sizeof *maker->images)};
     if (!rows || !maker->used || !maker->images) return LIMN_BAKE_MEMORY;
-    limni_fixed *const tangents = table_count == 3 ? rows + table_size : NULL;
-    LIMNI_TRY(limni_subdivide(context, rules, neighbourhood, depth, LIMNI_PROJECT_TO_LIMIT, rows,
-                              tangents));
-    return tangents && kind == LIMNI_TABLE_CORNER
-               ? add_end_tangents(context, rules, neighbourhood, tangents, table_size)
-               : LIMN_BAKE_OK;
+    return fill_rows(context, rules, base, maker);
 }
 
 static void end_class(limni_context *context, class_maker *maker) {
@@ -290,19 +319,20 @@ static void end_class(limni_context *context, class_maker *maker) {
 
 /// Computes the tables of a local base, and which slot has which column.
 static limn_bake_status make_class(limni_context *context, const limni_rules *rules,
-                                   const limni_neighbourhood *neighbourhood, limni_table_kind kind,
+                                   const limni_local_base *base, limni_table_kind kind,
                                    uint16_t *columns, limni_class *class) {
     class_maker maker;
-    LIMNI_TRY(begin_class(context, rules, neighbourhood, kind, &maker));
+    LIMNI_TRY(begin_class(context, rules, base, kind, &maker));
     find_used(&maker.coefficients, maker.used);
-    if (kind == LIMNI_TABLE_PATCH)
+    if (kind == LIMNI_TABLE_PATCH && maker.domain->kind == LIMN_DOMAIN_TRIANGLE)
         maker.pair_count = limni_find_mirror(&maker.coefficients, maker.used, maker.images);
     number_columns(&maker, columns);
     const uint32_t row_stride =
         kind == LIMNI_TABLE_PATCH
-            ? limni_layout_get(LIMN_DOMAIN_TRIANGLE, false, maker.pair_count)->row_stride
-            : piece_layout_of(kind, false)->row_stride;
-    *class = (limni_class){.kind = kind,
+            ? limni_layout_get(maker.domain->kind, false, maker.pair_count)->row_stride
+            : piece_layout_of(&maker, false)->row_stride;
+    *class = (limni_class){.domain = maker.domain->kind,
+                           .kind = kind,
                            .control_count = maker.control_count,
                            .pair_count = maker.pair_count,
                            .table_count = maker.coefficients.table_count,
@@ -310,11 +340,11 @@ static limn_bake_status make_class(limni_context *context, const limni_rules *ru
     class->table = limni_allocate_zeroed(context, limni_class_table_size(class), 1);
     class->prints = limni_allocate(context, class->control_count, sizeof *class->prints);
     if (!class->table || !class->prints) return LIMN_BAKE_MEMORY;
-    for (uint32_t corner = 0; corner < 3; corner++) {
-        class->valences[corner] = neighbourhood->corners[corner].count;
-        class->boundary_corners |= (uint32_t)!neighbourhood->corners[corner].closed << corner;
+    for (uint32_t corner = 0; corner < base->corner_count; corner++) {
+        class->valences[corner] = base->corners[corner].count;
+        class->boundary_corners |= (uint32_t)!base->corners[corner].closed << corner;
     }
-    for (uint32_t slot = 0; slot < neighbourhood->control_count; slot++) {
+    for (uint32_t slot = 0; slot < base->control_count; slot++) {
         if (columns[slot] != LIMNI_SLOT_UNUSED) fill_slot(&maker, slot, columns[slot], class);
     }
     end_class(context, &maker);
@@ -330,21 +360,24 @@ static limn_bake_status make_room(limni_context *context, limni_classes *classes
     return full ? grow(context, classes) : LIMN_BAKE_OK;
 }
 
+/// The key of a local base, with the words of that.
+static limni_class_key key_of(const limni_local_base *base, limni_table_kind kind) {
+    return (limni_class_key){
+        .domain = base->mesh->domain, .kind = kind, .words = base->key, .size = base->key_size};
+}
+
 static limn_bake_status add_key(limni_context *context, limni_classes *classes,
                                 const limni_rules *rules, const limni_local_base *base,
                                 limni_table_kind kind) {
     limni_class_key *const key = &classes->keys[classes->key_count];
-    *key = (limni_class_key){
-        .kind = kind,
-        .words = limni_allocate(context, base->key_size, sizeof *key->words),
-        .size = base->key_size,
-        .slots = limni_allocate(context, base->neighbourhood.control_count, sizeof *key->slots),
-    };
+    *key = key_of(base, kind);
+    key->words = limni_allocate(context, base->key_size, sizeof *key->words);
+    key->slots = limni_allocate(context, base->control_count, sizeof *key->slots);
     if (!key->words || !key->slots) return LIMN_BAKE_MEMORY;
     memcpy(key->words, base->key, base->key_size * sizeof *key->words);
 
     limni_class *const made = &classes->items[classes->count];
-    LIMNI_TRY(make_class(context, rules, &base->neighbourhood, kind, key->slots, made));
+    LIMNI_TRY(make_class(context, rules, base, kind, key->slots, made));
     uint32_t *const place = find_class(classes, made);
     if (*place == LIMNI_NONE) {
         *place = classes->count++;
@@ -360,8 +393,9 @@ static limn_bake_status add_key(limni_context *context, limni_classes *classes,
 limn_bake_status limni_classes_find(limni_context *context, limni_classes *classes,
                                     const limni_rules *rules, const limni_local_base *base,
                                     limni_table_kind kind, uint32_t *key_index) {
+    const limni_class_key key = key_of(base, kind);
     LIMNI_TRY(make_room(context, classes));
-    uint32_t *const place = find_key(classes, kind, base->key, base->key_size);
+    uint32_t *const place = find_key(classes, &key);
     if (*place == LIMNI_NONE) {
         LIMNI_TRY(add_key(context, classes, rules, base, kind));
         *place = classes->key_count - 1;
@@ -390,19 +424,20 @@ limn_bake_status limni_classes_find_parts(limni_context *context, limni_classes 
 limn_file_piece limni_piece_record(const limni_class *piece) {
     return (limn_file_piece){.control_count = piece->control_count,
                              .kind = (uint8_t)(piece->kind - LIMNI_TABLE_CORNER),
+                             .domain = (uint8_t)piece->domain,
                              .table_count = (uint16_t)piece->table_count};
 }
 
 limn_file_class limni_class_record(const limni_class *class) {
     limn_file_class record = {
         .control_count = class->control_count,
-        .domain = LIMN_DOMAIN_TRIANGLE,
+        .domain = (uint16_t) class->domain,
         .depth = class->parts ? LIMN_FORMAT_PIECE_DEPTH : LIMN_FORMAT_DEPTH,
         .boundary_corners = class->boundary_corners,
         .table_count = (uint16_t) class->table_count,
         .pair_count = (uint16_t) class->pair_count,
     };
-    for (int corner = 0; corner < 3; corner++)
+    for (int corner = 0; corner < LIMN_CORNER_MAX; corner++)
         record.valences[corner] = (uint16_t) class->valences[corner];
     return record;
 }

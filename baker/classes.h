@@ -17,15 +17,15 @@ enum {
     LIMNI_SLOT_UNUSED = 0xffff, ///< of a control point without a column
 };
 
-/// What one column says along one edge of the triangle, as numbers: 0 if it is zero there. Two
+/// What one column says along one edge of the patch, as numbers: 0 if it is zero there. Two
 /// classes agree on an edge if their columns along it do.
 typedef struct limni_edge_print {
     uint64_t positions, tangents;
 } limni_edge_print;
 
 typedef struct limni_edge_prints {
-    limni_edge_print along[3];   ///< read in the direction of edge e
-    limni_edge_print against[3]; ///< read the other way, as the neighbour sees it
+    limni_edge_print along[LIMN_CORNER_MAX];   ///< read in the direction of edge e
+    limni_edge_print against[LIMN_CORNER_MAX]; ///< read the other way, as the neighbour sees it
 } limni_edge_prints;
 
 /// What a table is for: a patch at all its levels, or one piece of an isolated patch.
@@ -37,14 +37,15 @@ typedef enum limni_table_kind {
 
 /// A stencil table; or what a class is that has pieces in its place.
 typedef struct limni_class {
+    limn_domain_kind domain;
     limni_table_kind kind;
     uint32_t control_count;
-    uint32_t valences[3];      ///< of the first key that has this table
-    uint32_t boundary_corners; ///< bit c
-    uint32_t pair_count;       ///< of columns, if the class is its own mirror image
-    uint32_t table_count;      ///< 1, or 3 with the tangents
-    uint32_t row_stride;       ///< rows of a column in the file
-    float *table;              ///< [table_count][control_count][row_stride]; NULL: in pieces
+    uint32_t valences[LIMN_CORNER_MAX]; ///< of the first key that has this table
+    uint32_t boundary_corners;          ///< bit c
+    uint32_t pair_count;                ///< of columns, if the class is its own mirror image
+    uint32_t table_count;               ///< 1, or 3 with the tangents
+    uint32_t row_stride;                ///< rows of a column in the file
+    float *table;    ///< [table_count][control_count][row_stride]; NULL: in pieces
     uint16_t *parts; ///< [LIMNI_PIECE_COUNT] the pieces, and [LIMNI_PIECE_COUNT][control_count] the
                      ///< column of each slot; NULL: it has a table
     limni_edge_prints *prints; ///< [control_count]
@@ -66,6 +67,7 @@ limn_file_piece limni_piece_record(const limni_class *piece);
 
 /// A topology, and the table that it uses.
 typedef struct limni_class_key {
+    limn_domain_kind domain;
     limni_table_kind kind;
     uint32_t *words; ///< [size]
     uint32_t size;

@@ -5,26 +5,20 @@
 
 enum {
     /// limni_check_valences() refuses faces whose rings have more entries in all; at level 1, a face at
-    /// a corner has the corner's ring and two of six, where those of the base face may have three.
-    RING_MAX = LIMNI_LOCAL_BASE_MAX + 6,
-    SLOT_MAX = 3 * RING_MAX + 3,
-    KEY_MAX = 9 + 3 * RING_MAX + 2 * SLOT_MAX
+    /// a corner has the corner's ring and those of new vertices, where those of the base face may have
+    /// less.
+    RING_MAX = LIMNI_LOCAL_BASE_MAX + 24,
+    SLOT_MAX = RING_MAX + LIMN_CORNER_MAX,
+    KEY_MAX = 3 * LIMN_CORNER_MAX + 3 * RING_MAX + 2 * SLOT_MAX
 };
 
 static limn_bake_status allocate_base(limni_context *context, limni_local_base *base) {
     base->controls = limni_allocate(context, SLOT_MAX, sizeof *base->controls);
     base->twins = limni_allocate(context, SLOT_MAX, sizeof *base->twins);
     base->key = limni_allocate(context, KEY_MAX, sizeof *base->key);
-    base->edges = limni_allocate(context, RING_MAX, sizeof *base->edges);
-    base->beyond = limni_allocate(context, RING_MAX, sizeof *base->beyond);
-    if (!base->controls || !base->twins || !base->key || !base->edges || !base->beyond)
-        return LIMN_BAKE_MEMORY;
-    for (int corner = 0; corner < 3; corner++) {
-        limni_star *const star = &base->neighbourhood.corners[corner];
-        star->ring = limni_allocate(context, RING_MAX, sizeof *star->ring);
-        if (!star->ring) return LIMN_BAKE_MEMORY;
-    }
-    return LIMN_BAKE_OK;
+    base->room = limni_allocate(context, 4 * (size_t)RING_MAX, sizeof *base->room);
+    return base->controls && base->twins && base->key && base->room ? LIMN_BAKE_OK
+                                                                    : LIMN_BAKE_MEMORY;
 }
 
 limn_bake_status limni_classifier_begin(limni_context *context, limni_classifier *classifier,
@@ -50,10 +44,7 @@ void limni_classifier_end(limni_context *context, limni_classifier *classifier) 
         limni_release(context, classifier->bases[b].controls);
         limni_release(context, classifier->bases[b].twins);
         limni_release(context, classifier->bases[b].key);
-        limni_release(context, classifier->bases[b].edges);
-        limni_release(context, classifier->bases[b].beyond);
-        for (int corner = 0; corner < 3; corner++)
-            limni_release(context, classifier->bases[b].neighbourhood.corners[corner].ring);
+        limni_release(context, classifier->bases[b].room);
     }
 }
 
@@ -77,7 +68,7 @@ static uint32_t find_twin(const limni_classifier *classifier, const limni_local_
 /// The slot of a control point in the local base that is being built, given when it is first met.
 static uint32_t slot_of(limni_classifier *classifier, limni_local_base *base, uint32_t control) {
     if (classifier->marks[control] != classifier->mark) {
-        const uint32_t slot = base->neighbourhood.control_count++;
+        const uint32_t slot = base->control_count++;
         const uint32_t twin = find_twin(classifier, base, control);
         classifier->marks[control] = classifier->mark;
         classifier->slots[control] = slot;
@@ -93,16 +84,19 @@ static uint32_t slot_of(limni_classifier *classifier, limni_local_base *base, ui
 static void walk_ring(limni_classifier *classifier, limni_local_base *base, uint32_t half_edge,
                       limni_star *star) {
     limni_mesh_star(classifier->mesh, classifier->sharpness, half_edge, star);
-    for (uint32_t r = 0; r < star->count; r++)
+    for (uint32_t r = 0; r < star->count; r++) {
         star->ring[r] = slot_of(classifier, base, star->ring[r]);
+        if (star->diagonals && r < limni_star_face_count(star))
+            star->diagonals[r] = slot_of(classifier, base, star->diagonals[r]);
+    }
 }
 
 /// Whether an edge is sharp, other than on a boundary whose ends are all alike to the rules.
-static bool has_creases(const limni_rules *rules, const limni_neighbourhood *neighbourhood) {
+static bool has_creases(const limni_rules *rules, const limni_local_base *base) {
     const bool boundaries = rules->creases == LIMN_CREASES_LOMONT;
     bool any = false;
-    for (int corner = 0; corner < 3; corner++) {
-        const limni_star *const star = &neighbourhood->corners[corner];
+    for (uint32_t corner = 0; corner < base->corner_count; corner++) {
+        const limni_star *const star = &base->corners[corner];
         for (uint32_t r = 0; star->edges && r < star->count; r++) {
             const bool inside = limni_star_has_left(star, r) && limni_star_has_right(star, r);
             any |= (inside || boundaries) && star->edges[r] > 0;
@@ -111,20 +105,22 @@ static bool has_creases(const limni_rules *rules, const limni_neighbourhood *nei
     return any;
 }
 
-/// Walks all three rings.
-static void walk_rings(limni_classifier *classifier, limni_local_base *base, uint32_t face) {
-    limni_neighbourhood *const neighbourhood = &base->neighbourhood;
+/// Walks all rings.
+static void walk_rings(limni_classifier *classifier, limni_local_base *base) {
+    const uint32_t begin = base->mesh->offsets[base->face];
     uint32_t first = 0;
-    for (uint32_t corner = 0; corner < 3; corner++) {
-        limni_star *const star = &neighbourhood->corners[corner];
-        star->edges = base->edges + first;
-        star->beyond = base->beyond + first;
-        walk_ring(classifier, base, 3 * face + (corner + base->rotation) % 3, star);
+    for (uint32_t corner = 0; corner < base->corner_count; corner++) {
+        limni_star *const star = &base->corners[corner];
+        *star = (limni_star){.ring = base->room + first,
+                             .edges = base->room + RING_MAX + first,
+                             .beyond = base->room + 2 * RING_MAX + first,
+                             .diagonals = base->room + 3 * RING_MAX + first};
+        walk_ring(classifier, base, begin + (corner + base->rotation) % base->corner_count, star);
         first += star->count;
     }
-    if (has_creases(classifier->rules, neighbourhood)) return;
-    for (uint32_t corner = 0; corner < 3; corner++)
-        neighbourhood->corners[corner].edges = neighbourhood->corners[corner].beyond = NULL;
+    if (has_creases(classifier->rules, base)) return;
+    for (uint32_t corner = 0; corner < base->corner_count; corner++)
+        base->corners[corner].edges = base->corners[corner].beyond = NULL;
 }
 
 enum { KEY_RULE = 1, KEY_CREASES = 3, KEY_CHAIKIN = 4, KEY_TWINS = 5 }; // bits
@@ -143,25 +139,26 @@ static uint32_t *append(uint32_t *key, const uint32_t *words, uint32_t count) {
 }
 
 static void write_key(limni_local_base *base, const limni_rules *rules) {
-    const limni_star *const corners = base->neighbourhood.corners;
+    const limni_star *const corners = base->corners, *const end = corners + base->corner_count;
     uint32_t *key = base->key;
     bool tagged = corners[0].edges;
-    for (int corner = 0; corner < 3; corner++)
-        tagged |= limni_is_semi_sharp(corners[corner].sharpness);
-    for (int corner = 0; corner < 3; corner++)
-        *key++ = corners[corner].count;
-    for (int corner = 0; corner < 3; corner++)
-        *key++ = key_flags(&corners[corner], rules, tagged) | (uint32_t)(base->twin_count > 0)
-                                                                  << KEY_TWINS;
-    for (int corner = 0; corner < 3; corner++)
-        key = append(key, corners[corner].ring, corners[corner].count);
-    for (int corner = 0; corner < 3 && tagged; corner++) {
-        *key++ = corners[corner].sharpness;
-        if (!corners[corner].edges) continue;
-        key = append(key, corners[corner].edges, corners[corner].count);
-        key = append(key, corners[corner].beyond, corners[corner].count);
+    for (const limni_star *star = corners; star < end; star++)
+        tagged |= limni_is_semi_sharp(star->sharpness);
+    for (const limni_star *star = corners; star < end; star++)
+        *key++ = star->count;
+    for (const limni_star *star = corners; star < end; star++)
+        *key++ = key_flags(star, rules, tagged) | (uint32_t)(base->twin_count > 0) << KEY_TWINS;
+    for (const limni_star *star = corners; star < end; star++) {
+        key = append(key, star->ring, star->count);
+        if (star->diagonals) key = append(key, star->diagonals, limni_star_face_count(star));
     }
-    for (uint32_t slot = 0; slot < base->neighbourhood.control_count && base->twin_count; slot++) {
+    for (const limni_star *star = corners; star < end && tagged; star++) {
+        *key++ = star->sharpness;
+        if (!star->edges) continue;
+        key = append(key, star->edges, star->count);
+        key = append(key, star->beyond, star->count);
+    }
+    for (uint32_t slot = 0; slot < base->control_count && base->twin_count; slot++) {
         if (base->twins[slot] != slot) key = append(key, (uint32_t[]){slot, base->twins[slot]}, 2);
     }
     base->key_size = (uint32_t)(key - base->key);
@@ -169,16 +166,21 @@ static void write_key(limni_local_base *base, const limni_rules *rules) {
 
 static void build_base(limni_classifier *classifier, limni_local_base *base, uint32_t face,
                        uint32_t rotation) {
+    const limni_mesh *const mesh = classifier->mesh;
     if (++classifier->mark == 0) { // the marks have come round: forget them all
-        memset(classifier->marks, 0, classifier->mesh->control_count * sizeof(uint32_t));
+        memset(classifier->marks, 0, mesh->control_count * sizeof(uint32_t));
         classifier->mark = 1;
     }
+    base->mesh = mesh;
+    base->sharpness = classifier->sharpness;
+    base->face = face;
     base->rotation = rotation;
-    base->neighbourhood.control_count = base->twin_count = 0;
-    for (uint32_t corner = 0; corner < 3; corner++)
-        slot_of(classifier, base, classifier->mesh->faces[face][(corner + rotation) % 3]);
-    walk_rings(classifier, base, face);
-    base->neighbourhood.twins = base->twin_count ? base->twins : NULL;
+    base->corner_count = limni_face_size(mesh, face);
+    base->control_count = base->twin_count = 0;
+    for (uint32_t corner = 0; corner < base->corner_count; corner++)
+        slot_of(classifier, base,
+                mesh->corners[mesh->offsets[face] + (corner + rotation) % base->corner_count]);
+    walk_rings(classifier, base);
     write_key(base, classifier->rules);
 }
 
@@ -190,19 +192,12 @@ static int compare_keys(const limni_local_base *a, const limni_local_base *b) {
     return 0;
 }
 
-/// Whether the valences alone say that this rotation is not the canonical one.
-static bool is_ruled_out(const limni_mesh *mesh, uint32_t face, uint32_t rotation) {
-    const uint32_t *const corners = mesh->faces[face];
-    const uint32_t first = mesh->valences[corners[rotation]];
-    const uint32_t second = mesh->valences[corners[(rotation + 1) % 3]];
-    const uint32_t third = mesh->valences[corners[(rotation + 2) % 3]];
-    if (first == second || first == third || second == third)
-        return second !=
-               third; // all three are equal, or a mirror line would go through the odd one
-    for (uint32_t other = 0; other < 3; other++) {
-        for (uint32_t c = 0; c < 3; c++) {
-            const uint32_t own = mesh->valences[corners[(c + rotation) % 3]];
-            const uint32_t its = mesh->valences[corners[(c + other) % 3]];
+/// Whether in another rotation the valences would be smaller, at the first that differ.
+static bool is_larger(const uint32_t *valences, uint32_t count, uint32_t rotation) {
+    for (uint32_t other = 0; other < count; other++) {
+        for (uint32_t c = 0; c < count; c++) {
+            const uint32_t own = valences[(c + rotation) % count];
+            const uint32_t its = valences[(c + other) % count];
             if (its < own) return true;
             if (its > own) break;
         }
@@ -210,21 +205,38 @@ static bool is_ruled_out(const limni_mesh *mesh, uint32_t face, uint32_t rotatio
     return false;
 }
 
+/// Whether the valences alone say that this rotation is not the canonical one.
+static bool is_ruled_out(const limni_mesh *mesh, uint32_t face, uint32_t rotation) {
+    uint32_t valences[LIMN_CORNER_MAX];
+    const uint32_t count = limni_face_size(mesh, face);
+    for (uint32_t c = 0; c < count; c++)
+        valences[c] = mesh->valences[mesh->corners[mesh->offsets[face] + c]];
+    if (count != 3) return is_larger(valences, count, rotation);
+    const uint32_t first = valences[rotation];
+    const uint32_t second = valences[(rotation + 1) % 3], third = valences[(rotation + 2) % 3];
+    if (first == second || first == third || second == third)
+        return second !=
+               third; // all three are equal, or a mirror line would go through the odd one
+    return is_larger(valences, count, rotation);
+}
+
 static limn_bake_status check_size(limni_context *context, const limni_mesh *mesh, uint32_t face) {
+    const uint32_t size = limni_face_size(mesh, face);
+    const uint32_t most = LIMNI_LOCAL_BASE_MAX / (size == 3 ? 1 : 2);
     uint64_t sum = 0;
-    uint32_t widest = mesh->faces[face][0];
-    for (int c = 0; c < 3; c++) {
-        const uint32_t control = mesh->faces[face][c];
+    uint32_t widest = mesh->corners[mesh->offsets[face]];
+    for (uint32_t c = 0; c < size; c++) {
+        const uint32_t control = mesh->corners[mesh->offsets[face] + c];
         sum += mesh->valences[control];
         if (mesh->valences[control] > mesh->valences[widest]) widest = control;
     }
-    if (sum <= LIMNI_LOCAL_BASE_MAX) return LIMN_BAKE_OK;
+    if (sum <= most) return LIMN_BAKE_OK;
     limni_place control_text, face_text;
     return limni_fail(context, LIMN_BAKE_BAD_INPUT,
                       "%s: %s has valence %u: the corners of %s have more than %u edges in all",
                       mesh->path ? mesh->path : mesh->name,
                       limni_control_place(mesh, widest, control_text), mesh->valences[widest],
-                      limni_face_place(mesh, face, face_text), LIMNI_LOCAL_BASE_MAX);
+                      limni_face_place(mesh, face, face_text), most);
 }
 
 limn_bake_status limni_check_valences(limni_context *context, const limni_mesh *mesh) {
@@ -235,8 +247,9 @@ limn_bake_status limni_check_valences(limni_context *context, const limni_mesh *
 }
 
 const limni_local_base *limni_classify(limni_classifier *classifier, uint32_t face) {
+    const uint32_t corner_count = limni_face_size(classifier->mesh, face);
     int best = -1;
-    for (uint32_t rotation = 0; rotation < 3; rotation++) {
+    for (uint32_t rotation = 0; rotation < corner_count; rotation++) {
         if (is_ruled_out(classifier->mesh, face, rotation)) continue;
         const int tried = best == 0 ? 1 : 0;
         build_base(classifier, &classifier->bases[tried], face, rotation);
@@ -250,4 +263,18 @@ const limni_local_base *limni_local_base_at(limni_classifier *classifier, uint32
                                             uint32_t rotation) {
     build_base(classifier, &classifier->bases[0], face, rotation);
     return &classifier->bases[0];
+}
+
+limn_bake_status limni_local_neighbourhood(limni_context *context, const limni_local_base *base,
+                                           limni_neighbourhood *neighbourhood) {
+    const limni_cutting cutting = {.mesh = base->mesh,
+                                   .sharpness = base->sharpness,
+                                   .controls = base->controls,
+                                   .control_count = base->control_count,
+                                   .inner_count = base->corner_count,
+                                   .half_edge = base->mesh->offsets[base->face] + base->rotation,
+                                   .with_edges = base->corners[0].edges};
+    LIMNI_TRY(limni_neighbourhood_begin(context, &cutting, neighbourhood));
+    neighbourhood->twins = base->twin_count ? base->twins : NULL;
+    return LIMN_BAKE_OK;
 }

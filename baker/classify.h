@@ -15,21 +15,25 @@
 
 #include "limn/format.h"
 #include "mesh_sharpness.h"
-#include "subdivide.h"
+#include "neighbourhood.h"
 
-/// The corners of a face may have this many edges in all.
+/// The corners of a face may have this many edges in all, or half as many if it is a quad.
 #define LIMNI_LOCAL_BASE_MAX LIMN_FORMAT_CONTROLS_MAX
 
 /// The surroundings of one face in one mesh.
 typedef struct limni_local_base {
-    limni_neighbourhood neighbourhood;
-    limni_sharpness *edges; ///< what the neighbourhood has if there are sharp edges
-    uint32_t *beyond;       ///< likewise
-    uint32_t rotation;      ///< corner c of the patch is corner (c + rotation) mod 3 of the face
+    const limni_mesh *mesh;
+    const limni_mesh_sharpness *sharpness;
+    uint32_t face;
+    uint32_t rotation; ///< corner c of the patch is corner (c + rotation) mod corners of the face
+    uint32_t corner_count;
+    limni_star corners[LIMN_CORNER_MAX]; ///< with slots as their rings
+    uint32_t control_count; ///< K: slots 0, 1, ... are the corners, the others follow around them
     uint32_t *controls;     ///< [control_count] control points by slot
     uint32_t *twins; ///< [control_count] the first slot that was the same control point before the
                      ///< mesh was split
     uint32_t twin_count; ///< slots that are not the first
+    uint32_t *room;      ///< what the stars point into
     uint32_t *key;       ///< [key_size]
     uint32_t key_size;
 } limni_local_base;
@@ -61,5 +65,9 @@ const limni_local_base *limni_classify(limni_classifier *classifier, uint32_t fa
 /// The same in a rotation that is known to be the canonical one.
 const limni_local_base *limni_local_base_at(limni_classifier *classifier, uint32_t face,
                                             uint32_t rotation);
+
+/// The part of the mesh that the coefficients of a local base follow from.
+limn_bake_status limni_local_neighbourhood(limni_context *context, const limni_local_base *base,
+                                           limni_neighbourhood *neighbourhood);
 
 #endif

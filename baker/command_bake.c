@@ -17,7 +17,9 @@ static const char help[] =
     "Polygons are triangulated: quads along the shorter diagonal. Nothing is written unless all is "
     "well.\n\n"
     "  -o, --output FILE     the file to write\n"
-    "      --scheme NAME     loop (default), or none: flat triangles, with sharp edges\n"
+    "      --scheme NAME     loop (default), of triangles: other polygons are cut; catmark:\n"
+    "                        Catmull-Clark, of any polygons; or none: the faces as they are, with\n"
+    "                        sharp edges, triangles flat and others bilinear\n"
     "      --weights NAME    vertex weights: loop (default) or warren\n"
     "      --boundary NAME   edge-only: boundaries are smooth curves; edge-and-corner: boundary\n"
     "                        vertices of a single face stay in place; none: faces at a boundary "
@@ -117,7 +119,7 @@ typedef struct choice {
     const char *error;
 } choice;
 
-static const choice schemes = {{"loop", "none"}, "there is no scheme '%s'"};
+static const choice schemes = {{"loop", "catmark", "none"}, "there is no scheme '%s'"};
 static const choice weights = {{"loop", "warren"}, "there are no weights '%s'"};
 static const choice boundaries = {{"edge-only", "edge-and-corner", "none"},
                                   "there is no boundary rule '%s'"};

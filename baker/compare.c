@@ -143,7 +143,7 @@ static limn_bake_status oracle(limni_context *context, const limn_pack *pack, co
                           source->path);
     const limni_opensubdiv_mesh mesh = {
         .positions = source->controls[0],
-        .faces = source->faces[0],
+        .faces = source->corners,
         .position_count = source->control_count,
         .face_count = source->face_count,
         .boundary = boundary_of(boundary, source),

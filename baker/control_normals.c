@@ -19,7 +19,7 @@ typedef struct builder {
     uint32_t valence_max;
     limni_sharpness *edges;      ///< [valence_max] of a star
     uint32_t *beyond;            ///< likewise
-    limni_fixed *along, *across; ///< [valence_max + 1]
+    limni_fixed *along, *across; ///< [2 * valence_max + 1]
 } builder;
 
 enum { RULE_COUNT = 3 };
@@ -32,8 +32,8 @@ static limn_bake_status begin(builder *b) {
     b->first_weights = limni_allocate(b->context, RULE_COUNT * count, sizeof *b->first_weights);
     b->edges = limni_allocate(b->context, count, sizeof *b->edges);
     b->beyond = limni_allocate(b->context, count, sizeof *b->beyond);
-    b->along = limni_allocate(b->context, count, sizeof *b->along);
-    b->across = limni_allocate(b->context, count, sizeof *b->across);
+    b->along = limni_allocate(b->context, 2 * count, sizeof *b->along);
+    b->across = limni_allocate(b->context, 2 * count, sizeof *b->across);
     if (!b->first_weights || !b->edges || !b->beyond || !b->along || !b->across)
         return LIMN_BAKE_MEMORY;
     memset(b->first_weights, 0xff, RULE_COUNT * count * sizeof *b->first_weights);
@@ -48,11 +48,17 @@ static void end(const builder *b) {
     limni_release(b->context, b->across);
 }
 
+/// Neighbours, and in quads diagonals.
+static uint32_t ring_size(const limni_star *star) {
+    return star->count + (star->diagonals ? limni_star_face_count(star) : 0);
+}
+
 /// Appends the two masks of a star to the weights: those of the ring. Masks sum to zero, so sums
 /// relative to the centre need no weight for it.
 static limn_bake_status write_mask(builder *b, const limni_star *star, uint32_t half_steps) {
     limni_control_normals *const normals = b->normals;
-    const uint64_t size = 2 * (uint64_t)star->count;
+    const uint32_t count = ring_size(star);
+    const uint64_t size = 2 * (uint64_t)count;
     if (normals->weight_count + size > b->weight_capacity) {
         b->weight_capacity = 2 * (b->weight_capacity + size);
         float *const weights =
@@ -65,9 +71,9 @@ static limn_bake_status write_mask(builder *b, const limni_star *star, uint32_t 
         return limni_fail(b->context, LIMN_BAKE_BAD_INPUT,
                           "the mesh has too many sharp vertices for exact normals");
     float *weight = normals->weights + normals->weight_count;
-    for (uint32_t w = 0; w < star->count; w++) {
+    for (uint32_t w = 0; w < count; w++) {
         weight[w] = limni_fixed_to_float(b->along[1 + w]);
-        weight[star->count + w] = limni_fixed_to_float(b->across[1 + w]);
+        weight[count + w] = limni_fixed_to_float(b->across[1 + w]);
     }
     normals->weight_count += size;
     return LIMN_BAKE_OK;
@@ -90,7 +96,7 @@ static limn_bake_status append_side(builder *b, uint32_t control, const limn_fil
 
 /// The parts of the surface around a control point that have normals of their own.
 static uint32_t count_sides(const limni_star *star, const limni_feature *last) {
-    if (last->rule == LIMNI_VERTEX_CORNER) return star->closed ? star->count : star->count - 1;
+    if (last->rule == LIMNI_VERTEX_CORNER) return limni_star_face_count(star);
     return last->rule == LIMNI_VERTEX_CREASE && star->closed ? 2 : 1;
 }
 
@@ -112,7 +118,7 @@ static uint32_t side_of(const limni_star *star, const limni_feature *last, uint3
 static void set_corners(const builder *b, uint32_t control, const limni_star *star,
                         const limni_feature *last) {
     const uint32_t next = b->mesh->control_count + b->normals->side_count;
-    const uint32_t face_count = star->closed ? star->count : star->count - 1;
+    const uint32_t face_count = limni_star_face_count(star);
     uint32_t h = b->mesh->first[control];
     for (uint32_t r = 0; r < face_count; r++) {
         const uint32_t side = side_of(star, last, r);
@@ -133,7 +139,7 @@ static bool is_plain(const limni_rules *rules, const limni_star *star, const lim
 static limn_bake_status write_sides(builder *b, uint32_t control, const limni_star *star) {
     const limni_feature last = limni_star_last_feature(star);
     limn_file_normal record = {.first_ring = (uint32_t)b->normals->ring_size,
-                               .ring_count = star->count};
+                               .ring_count = ring_size(star)};
     uint32_t scratch = LIMNI_NONE;
     uint32_t *const first = is_plain(b->rules, star, &last)
                                 ? &b->first_weights[last.rule * (b->valence_max + 1) + star->count]
@@ -159,27 +165,30 @@ static limn_bake_status write_normal(builder *b, uint32_t control) {
         normals->records[control] = (limn_file_normal){.first_ring = (uint32_t)normals->ring_size};
         return LIMN_BAKE_OK;
     }
-    limni_star star = {
-        .ring = normals->ring + normals->ring_size, .edges = b->edges, .beyond = b->beyond};
+    uint32_t *const ring = normals->ring + normals->ring_size;
+    limni_star star = {.ring = ring,
+                       .edges = b->edges,
+                       .beyond = b->beyond,
+                       .diagonals = ring + b->mesh->valences[control]};
     limni_mesh_star(b->mesh, b->sharpness, b->mesh->first[control], &star);
     LIMNI_TRY(write_sides(b, control, &star));
-    normals->ring_size += star.count;
+    normals->ring_size += ring_size(&star);
     return LIMN_BAKE_OK;
 }
 
 static limn_bake_status allocate_normals(builder *b) {
     const limni_mesh *const mesh = b->mesh;
-    uint64_t ring_size = 0;
+    uint64_t room = 0;
     bool tagged = b->sharpness->edges;
     for (uint32_t c = 0; c < mesh->control_count; c++) {
-        ring_size += mesh->valences[c];
+        room += (mesh->domain == LIMN_DOMAIN_QUAD ? 2 : 1) * (uint64_t)mesh->valences[c];
         tagged |= b->sharpness->vertices[c] > 0;
     }
-    const size_t corner_count = 3 * (size_t)mesh->face_count;
     *b->normals = (limni_control_normals){
         .records = limni_allocate(b->context, mesh->control_count, sizeof *b->normals->records),
-        .ring = limni_allocate(b->context, (size_t)ring_size, sizeof *b->normals->ring),
-        .corners = tagged ? limni_allocate(b->context, corner_count, sizeof(uint32_t)) : NULL,
+        .ring = limni_allocate(b->context, (size_t)room, sizeof *b->normals->ring),
+        .corners =
+            tagged ? limni_allocate(b->context, mesh->half_edge_count, sizeof(uint32_t)) : NULL,
     };
     return b->normals->records && b->normals->ring && (b->normals->corners || !tagged)
                ? LIMN_BAKE_OK

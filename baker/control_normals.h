@@ -14,10 +14,11 @@ typedef struct limni_control_normals {
     limn_file_normal *records; ///< [control_count]
     limn_file_side *sides;     ///< [side_count] further ones
     uint32_t side_count;
-    uint32_t *corners; ///< [3 * face_count] by half-edge: the normal of the corner where it starts,
-                       ///< sides counting from control_count on; NULL: there are none
-    uint32_t *ring;    ///< [ring_size]
-    float *weights;    ///< [weight_count]
+    uint32_t
+        *corners;   ///< [half_edge_count] by half-edge: the normal of the corner where it starts,
+                    ///< sides counting from control_count on; NULL: there are none
+    uint32_t *ring; ///< [ring_size]
+    float *weights; ///< [weight_count]
     uint64_t ring_size;
     uint64_t weight_count;
 } limni_control_normals;

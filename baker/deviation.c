@@ -49,10 +49,10 @@ static limni_near find_near(const limn_domain *domain, uint32_t level, uint32_t 
     uint32_t own = 0;
     while (!contains(domain, indices + 3 * own, row))
         own++;
-    limni_near near = {.count = 1, .triangles = {(uint8_t)own}};
+    limni_near near = {.count = 1, .triangles = {(uint16_t)own}};
     for (uint32_t t = 0; t < count; t++) {
         if (count_common(indices + 3 * own, indices + 3 * t) == 2)
-            near.triangles[near.count++] = (uint8_t)t;
+            near.triangles[near.count++] = (uint16_t)t;
     }
     return near;
 }
@@ -213,7 +213,7 @@ static double between_rows(uint32_t seen) {
 static double square_inside(const limni_ruler *ruler, uint32_t level, const float (*points)[3],
                             const offsets *off, double least_edge) {
     const double factor = between_rows(LIMN_LEVEL_MAX - level);
-    facet facets[1u << 2 * (LIMN_LEVEL_MAX - 1)];
+    facet facets[2u << 2 * (LIMN_LEVEL_MAX - 1)]; // of quads
     for (uint32_t t = 0; t < ruler->domain->index_counts[level] / 3u; t++)
         facets[t].prepared = false;
     double worst = least_edge / factor;

@@ -9,15 +9,15 @@
 #include "limn/limn.h"
 
 enum {
-    LIMNI_ROWS_MAX = 153,
+    LIMNI_ROWS_MAX = 289,
     LIMNI_NEAR_MAX = 4, ///< a triangle and its neighbours
 };
 
 /// The triangles of a level near a row: first the one that it lies on in the domain, then the
 /// neighbours of that one inside the patch.
 typedef struct limni_near {
-    uint8_t count;
-    uint8_t triangles[LIMNI_NEAR_MAX];
+    uint16_t count;
+    uint16_t triangles[LIMNI_NEAR_MAX];
 } limni_near;
 
 /// What is the same for all patches of a domain.

@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-enum { BATCH = 16, ROWS = LIMNI_ROWS_MAX };
+enum { BATCH = 16 };
 
 /// Of an edge as one of its patches sees it, by levels 0 to 3: model units.
 typedef struct edge_error {
@@ -34,12 +34,12 @@ typedef struct measurer {
     limn_file_piece pieces[LIMNI_PIECE_COUNT];
     float *tables;     ///< of the pieces, one behind the other; NULL: the class has a table
     uint16_t *columns; ///< as a class has them
-    float points[BATCH * ROWS][3];
+    float points[BATCH * LIMNI_ROWS_MAX][3];
     uint32_t next_progress; ///< patches
 } measurer;
 
 static void begin_measurer(measurer *m, const limni_mesh *mesh, const limni_patches *patches) {
-    const limn_domain *const domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE);
+    const limn_domain *const domain = limn_domain_get(mesh->domain);
     limni_ruler_begin(&m->ruler, domain);
     m->next_progress = 0;
     m->view = (limn_mesh){.domain = domain,
@@ -56,16 +56,21 @@ static void begin_measurer(measurer *m, const limni_mesh *mesh, const limni_patc
 }
 
 /// faces: of the patches in view
-static void measure_view(measurer *m, const uint32_t *faces, edge_error *errors) {
+static void measure_view(measurer *m, const limni_mesh *mesh, const uint32_t *faces,
+                         edge_error *errors) {
     const limn_plan plan = limn_plan_uniform(&m->view, LIMN_LEVEL_MAX);
+    const uint32_t row_count = m->view.domain->row_counts[LIMN_LEVEL_MAX];
+    const uint32_t corner_count = m->view.domain->corner_count;
     limn_evaluate(&plan, m->view.controls, 0, plan.patch_count,
                   &(limn_output){.vertices = m->points});
     for (uint32_t p = 0; p < plan.patch_count; p++) {
         const uint32_t face = faces[p] >> 2, rotation = faces[p] & 3;
         limni_deviation deviation;
-        limni_deviation_measure(&m->ruler, (const float(*)[3])m->points + p * ROWS, &deviation);
-        for (uint32_t edge = 0; edge < 3; edge++)
-            errors[3 * face + (edge + rotation) % 3] = combine(&deviation, edge);
+        limni_deviation_measure(&m->ruler, (const float(*)[3])m->points + p * row_count,
+                                &deviation);
+        for (uint32_t edge = 0; edge < corner_count; edge++)
+            errors[mesh->offsets[face] + (edge + rotation) % corner_count] =
+                combine(&deviation, edge);
     }
 }
 
@@ -114,8 +119,9 @@ static limn_bake_status view_class(limni_context *context, measurer *m, const li
     return LIMN_BAKE_OK;
 }
 
-static void measure_run(limni_context *context, measurer *m, const limn_file_run *run,
-                        const limni_patches *patches, edge_error *errors) {
+static void measure_run(limni_context *context, measurer *m, const limni_mesh *mesh,
+                        const limn_file_run *run, const limni_patches *patches,
+                        edge_error *errors) {
     const uint64_t batch = (uint64_t)BATCH * m->record.control_count;
     for (uint32_t begin = 0; begin < run->patch_count; begin += BATCH) {
         const uint32_t rest = run->patch_count - begin, first = run->first_patch + begin;
@@ -126,7 +132,7 @@ static void measure_run(limni_context *context, measurer *m, const limn_file_run
                             .first_slot = run->first_slot +
                                           begin / BATCH * batch * limn_file_slot_size(&m->record)};
         m->view.patch_count = m->part.patch_count;
-        measure_view(m, patches->faces + first, errors);
+        measure_view(m, mesh, patches->faces + first, errors);
     }
 }
 
@@ -139,7 +145,7 @@ static limn_bake_status measure(limni_context *context, const limni_mesh *mesh,
     for (uint32_t r = 0; r < patches->record.run_count; r++) {
         const limn_file_run *const run = &patches->runs[r];
         LIMNI_TRY(view_class(context, m, &classes->items[run->class_index], pieces));
-        measure_run(context, m, run, patches, errors);
+        measure_run(context, m, mesh, run, patches, errors);
     }
     limni_progress(context, "measure", patches->record.patch_count, patches->record.patch_count);
     limni_release(context, m->tables);
@@ -160,7 +166,7 @@ static void raise_error(edge_error *error, const edge_error *least) {
 /// Gives all sheets that were one edge the largest of their errors, so that they have one level.
 static limn_bake_status share_errors(limni_context *context, const limni_mesh *mesh,
                                      edge_error *errors) {
-    const uint32_t half_edge_count = 3 * mesh->face_count;
+    const uint32_t half_edge_count = mesh->half_edge_count;
     if (!mesh->origins) return LIMN_BAKE_OK;
     limni_keyed_edge *const edges = limni_allocate(context, half_edge_count, sizeof *edges);
     size_t count = 0;
@@ -225,9 +231,9 @@ static void make_relative(double length, edge_error *error) {
     }
 }
 
-static double edge_length(const limni_mesh *mesh, const float (*controls)[3], uint32_t h) {
-    const float *const a = controls[limni_half_edge_start(mesh, h)];
-    const float *const b = controls[limni_half_edge_end(mesh, h)];
+static double edge_length(const limni_mesh *mesh, uint32_t h) {
+    const float *const a = mesh->controls[limni_half_edge_start(mesh, h)];
+    const float *const b = mesh->controls[limni_half_edge_end(mesh, h)];
     double square = 0;
     for (int axis = 0; axis < 3; axis++)
         square += ((double)a[axis] - (double)b[axis]) * ((double)a[axis] - (double)b[axis]);
@@ -235,33 +241,33 @@ static double edge_length(const limni_mesh *mesh, const float (*controls)[3], ui
 }
 
 /// Both sides of an edge get the same. What happens in a hole does not show.
-static uint16_t encode_edge(const limni_mesh *mesh, const float (*controls)[3], uint32_t h,
-                            const edge_error *errors) {
+static uint16_t encode_edge(const limni_mesh *mesh, uint32_t h, const edge_error *errors) {
     edge_error both;
     const uint32_t pair = mesh->pairs[h] == LIMNI_NONE ? h : mesh->pairs[h];
     for (uint32_t level = 0; level < LIMN_LEVEL_MAX; level++) {
         const double one = errors[h].levels[level], other = errors[pair].levels[level];
         both.levels[level] = one > other ? one : other;
     }
-    make_relative(edge_length(mesh, controls, h), &both);
+    make_relative(edge_length(mesh, h), &both);
     return encode(&both);
 }
 
 limn_bake_status limni_edge_errors_build(limni_context *context, const limni_mesh *mesh,
                                          const limni_classes *classes, const limni_classes *pieces,
                                          limni_patches *patches) {
-    const size_t count = 3 * (size_t)mesh->face_count;
+    const size_t count = mesh->half_edge_count;
     const uint32_t patch_count = patches->record.patch_count;
     edge_error *const errors = limni_allocate_zeroed(context, count, sizeof *errors);
-    patches->errors = limni_allocate(context, 3 * (size_t)patch_count, sizeof *patches->errors);
+    const uint32_t corner_count = limni_corner_count(patches);
+    patches->errors =
+        limni_allocate(context, corner_count * (size_t)patch_count, sizeof *patches->errors);
     if (!errors || !patches->errors) return LIMN_BAKE_MEMORY;
     LIMNI_TRY(measure(context, mesh, classes, pieces, patches, errors));
     LIMNI_TRY(share_errors(context, mesh, errors));
     for (uint32_t p = 0; p < patch_count; p++) {
-        const uint32_t face = patches->faces[p] >> 2, rotation = patches->faces[p] & 3;
-        for (uint32_t edge = 0; edge < 3; edge++)
-            patches->errors[3 * p + edge] = encode_edge(mesh, (const float(*)[3])patches->controls,
-                                                        3 * face + (edge + rotation) % 3, errors);
+        for (uint32_t edge = 0; edge < corner_count; edge++)
+            patches->errors[corner_count * p + edge] =
+                encode_edge(mesh, limni_patch_half_edge(patches, mesh, p, edge), errors);
     }
     limni_release(context, errors);
     return LIMN_BAKE_OK;

@@ -8,6 +8,8 @@ limn_bake_status limni_isolation_begin(limni_context *context, const limni_mesh 
                                        const limni_rules *rules, limni_isolation *isolation) {
     *isolation = (limni_isolation){.mesh = mesh};
     LIMNI_TRY(limni_refine(context, mesh, sharpness, rules, &isolation->refined));
+    LIMNI_TRY(limni_make_stencils(context, mesh, sharpness, rules, &isolation->refined,
+                                  &isolation->stencils));
     const limni_mesh *const refined = &isolation->refined.mesh;
     LIMNI_TRY(limni_classifier_begin(context, &isolation->classifier, refined,
                                      &isolation->refined.sharpness, rules));
@@ -28,6 +30,8 @@ void limni_isolation_end(limni_context *context, limni_isolation *isolation) {
     limni_classifier_end(context, &isolation->classifier);
     limni_assignment_end(context, &isolation->assigned);
     limni_refined_end(context, &isolation->refined);
+    limni_release(context, isolation->stencils.offsets);
+    limni_release(context, isolation->stencils.terms);
     limni_release(context, isolation->slots);
     limni_release(context, isolation->marks);
     limni_release(context, isolation->points);
@@ -37,23 +41,32 @@ void limni_isolation_end(limni_context *context, limni_isolation *isolation) {
 
 // ---- Pieces
 
+static bool is_corner(const limni_isolation *isolation, uint32_t piece) {
+    return piece < limn_domain_get(isolation->mesh->domain)->corner_count;
+}
+
 /// The face of the refined mesh that is a piece of a patch.
-static uint32_t piece_face(uint32_t face, uint32_t rotation, uint32_t piece) {
-    return 4 * face + (piece < 3 ? (piece + rotation) % 3 : piece);
+static uint32_t piece_face(const limni_isolation *isolation, uint32_t face, uint32_t rotation,
+                           uint32_t piece) {
+    const uint32_t size = limni_face_size(isolation->mesh, face);
+    return limni_first_child(isolation->mesh, face) +
+           (is_corner(isolation, piece) ? (piece + rotation) % size : piece);
 }
 
 /// Finds the table of each piece. A corner's piece starts with that corner, as the refined mesh has
-/// it; the middle one turns with the patch.
+/// it; the middle one of a triangle turns with the patch.
 static limn_bake_status find_pieces(limni_context *context, limni_isolation *isolation,
                                     const limni_rules *rules, uint32_t face, uint32_t rotation,
                                     limni_classes *pieces) {
     for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++) {
-        const uint32_t own = piece_face(face, rotation, p), turned = p < 3 ? 0 : rotation;
+        const uint32_t own = piece_face(isolation, face, rotation, p);
+        const bool corner = is_corner(isolation, p);
+        const uint32_t turned = corner ? 0 : rotation;
         const limni_local_base *const base =
             limni_local_base_at(&isolation->classifier, own, turned);
         isolation->assigned.rotations[own] = turned;
         LIMNI_TRY(limni_classes_find(context, pieces, rules, base,
-                                     p < 3 ? LIMNI_TABLE_CORNER : LIMNI_TABLE_MIDDLE,
+                                     corner ? LIMNI_TABLE_CORNER : LIMNI_TABLE_MIDDLE,
                                      &isolation->assigned.keys[own]));
     }
     return LIMN_BAKE_OK;
@@ -78,7 +91,7 @@ static void list_piece(limni_isolation *isolation, const limni_classes *pieces, 
     const limni_local_base *const base =
         limni_local_base_at(&isolation->classifier, own, isolation->assigned.rotations[own]);
     const limni_class_key *const key = &pieces->keys[isolation->assigned.keys[own]];
-    for (uint32_t s = 0; s < base->neighbourhood.control_count; s++) {
+    for (uint32_t s = 0; s < base->control_count; s++) {
         if (key->slots[s] == LIMNI_SLOT_UNUSED) continue;
         const uint32_t slot = slot_of(isolation, base->controls[s], count);
         isolation->columns[piece * LIMNI_LOCAL_BASE_MAX + slot] = key->slots[s];
@@ -92,10 +105,12 @@ uint32_t limni_isolation_list(limni_isolation *isolation, const limni_classes *p
         memset(isolation->marks, 0, isolation->refined.mesh.control_count * sizeof(uint32_t));
         isolation->mark = 1;
     }
-    for (uint32_t corner = 0; corner < 3; corner++)
-        slot_of(isolation, isolation->mesh->faces[face][(corner + rotation) % 3], &count);
+    const limni_mesh *const mesh = isolation->mesh;
+    const uint32_t size = limni_face_size(mesh, face), first = mesh->offsets[face];
+    for (uint32_t corner = 0; corner < size; corner++)
+        slot_of(isolation, mesh->corners[first + (corner + rotation) % size], &count);
     for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++)
-        list_piece(isolation, pieces, p, piece_face(face, rotation, p), &count);
+        list_piece(isolation, pieces, p, piece_face(isolation, face, rotation, p), &count);
     return count;
 }
 
@@ -106,17 +121,19 @@ static limni_class describe_class(const limni_isolation *isolation, const limni_
                                   const limni_classes *pieces, uint32_t face, uint32_t rotation,
                                   uint32_t count) {
     const limni_mesh *const mesh = isolation->mesh;
-    limni_class class = {.control_count = count,
+    const uint32_t size = limni_face_size(mesh, face), first = mesh->offsets[face];
+    limni_class class = {.domain = mesh->domain,
+                         .control_count = count,
                          .table_count = rules->normals == LIMN_NORMALS_EXACT ? 3 : 1,
                          .parts = isolation->parts};
-    for (uint32_t corner = 0; corner < 3; corner++) {
-        const uint32_t control = mesh->faces[face][(corner + rotation) % 3];
+    for (uint32_t corner = 0; corner < size; corner++) {
+        const uint32_t control = mesh->corners[first + (corner + rotation) % size];
         class.valences[corner] = mesh->valences[control];
         class.boundary_corners |= (uint32_t)limni_is_boundary(mesh, control) << corner;
     }
     uint16_t *columns = class.parts + LIMNI_PIECE_COUNT;
     for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++, columns += count) {
-        const uint32_t key = isolation->assigned.keys[piece_face(face, rotation, p)];
+        const uint32_t key = isolation->assigned.keys[piece_face(isolation, face, rotation, p)];
         class.parts[p] = (uint16_t)pieces->keys[key].class_index;
         memcpy(columns, isolation->columns + p * LIMNI_LOCAL_BASE_MAX, count * sizeof *columns);
     }

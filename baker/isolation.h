@@ -14,6 +14,7 @@
 typedef struct limni_isolation {
     const limni_mesh *mesh;
     limni_refined refined;
+    limni_stencils stencils;     ///< of its points
     limni_classifier classifier; ///< of the refined mesh
     limni_assignment assigned;   ///< of its faces
     uint32_t *slots, *marks;     ///< [points] see limni_classifier
@@ -28,7 +29,6 @@ limn_bake_status limni_isolation_begin(limni_context *context, const limni_mesh 
                                        const limni_mesh_sharpness *sharpness,
                                        const limni_rules *rules, limni_isolation *isolation);
 
-/// Frees all but the stencils.
 void limni_isolation_end(limni_context *context, limni_isolation *isolation);
 
 /// Finds the tables of the pieces of a face, and its class.

@@ -9,12 +9,12 @@ static bool any_above_zero(const float *values, size_t count) {
 }
 
 bool limni_has_sharpness(const limni_mesh *mesh) {
-    return any_above_zero(mesh->edge_sharpness, 3 * (size_t)mesh->face_count) ||
+    return any_above_zero(mesh->edge_sharpness, mesh->half_edge_count) ||
            any_above_zero(mesh->vertex_sharpness, mesh->control_count);
 }
 
 bool limni_has_boundary(const limni_mesh *mesh) {
-    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
+    for (uint32_t h = 0; h < mesh->half_edge_count; h++) {
         if (mesh->pairs[h] == LIMNI_NONE) return true;
     }
     return false;
@@ -26,7 +26,7 @@ static bool has_open_boundary(const limni_mesh *mesh, uint32_t control) {
     uint32_t last = first;
     for (uint32_t h = first; h != LIMNI_NONE; h = limni_half_edge_turn(mesh, h))
         last = h;
-    const float incoming = mesh->edge_sharpness[limni_half_edge_previous(last)];
+    const float incoming = mesh->edge_sharpness[limni_half_edge_previous(mesh, last)];
     return mesh->edge_sharpness[first] < LIMNI_SHARP_FOR_EVER || incoming < LIMNI_SHARP_FOR_EVER;
 }
 
@@ -34,8 +34,8 @@ static void open_fan(limni_mesh *mesh, uint32_t control) {
     uint32_t h = mesh->first[control];
     if (h == LIMNI_NONE) return;
     do {
-        mesh->hole_count += !mesh->holes[h / 3];
-        mesh->holes[h / 3] = true;
+        mesh->hole_count += !mesh->holes[mesh->face_of[h]];
+        mesh->holes[mesh->face_of[h]] = true;
         h = limni_half_edge_turn(mesh, h);
     } while (h != LIMNI_NONE && h != mesh->first[control]);
 }
@@ -70,12 +70,12 @@ static bool is_flat(const limni_rules *rules) {
 /// Whether an edge is sharp, by its tag or to Lomont's rules as a boundary.
 static bool has_sharp_edges(const limni_mesh *mesh, const limni_rules *rules) {
     return is_flat(rules) || (rules->creases == LIMN_CREASES_LOMONT && limni_has_boundary(mesh)) ||
-           any_above_zero(mesh->edge_sharpness, 3 * (size_t)mesh->face_count);
+           any_above_zero(mesh->edge_sharpness, mesh->half_edge_count);
 }
 
 static limn_bake_status convert_edges(limni_context *context, const limni_mesh *mesh,
                                       const limni_rules *rules, limni_mesh_sharpness *sharpness) {
-    const size_t count = 3 * (size_t)mesh->face_count;
+    const size_t count = mesh->half_edge_count;
     sharpness->edges = limni_allocate(context, count, sizeof *sharpness->edges);
     if (!sharpness->edges) return LIMN_BAKE_MEMORY;
     for (uint32_t h = 0; h < count; h++) {
@@ -99,7 +99,7 @@ static void tell_neighbours(const limni_mesh *mesh, uint32_t control, const uint
         last = h;
         h = limni_half_edge_turn(mesh, h);
     } while (h != first && h != LIMNI_NONE);
-    if (h == LIMNI_NONE) sharpness->seen[limni_half_edge_previous(last)][1] = *seen;
+    if (h == LIMNI_NONE) sharpness->seen[limni_half_edge_previous(mesh, last)][1] = *seen;
 }
 
 limn_bake_status limni_mesh_sharpness_see(limni_context *context, const limni_mesh *mesh,
@@ -109,7 +109,7 @@ limn_bake_status limni_mesh_sharpness_see(limni_context *context, const limni_me
     for (uint32_t c = 0; c < mesh->control_count; c++)
         valence_max = mesh->valences[c] > valence_max ? mesh->valences[c] : valence_max;
     sharpness->seen =
-        limni_allocate_zeroed(context, 3 * (size_t)mesh->face_count, sizeof *sharpness->seen);
+        limni_allocate_zeroed(context, mesh->half_edge_count, sizeof *sharpness->seen);
     uint32_t *const room = limni_allocate(context, 4 * valence_max, sizeof *room);
     if (!sharpness->seen || !room) return LIMN_BAKE_MEMORY;
     uint32_t *const seen = room + 3 * valence_max;
@@ -166,6 +166,12 @@ static void add_neighbour(const limni_mesh *mesh, const limni_mesh_sharpness *sh
         end == 0 ? limni_half_edge_start(mesh, h) : limni_half_edge_end(mesh, h);
 }
 
+/// The vertex across the face of a half-edge from its start, if the face is a quad.
+static uint32_t diagonal_of(const limni_mesh *mesh, uint32_t h) {
+    if (limni_face_size(mesh, mesh->face_of[h]) != 4) return LIMNI_NONE;
+    return limni_half_edge_end(mesh, limni_half_edge_next(mesh, h));
+}
+
 void limni_mesh_star(const limni_mesh *mesh, const limni_mesh_sharpness *sharpness, uint32_t h,
                      limni_star *star) {
     const uint32_t control = limni_half_edge_start(mesh, h);
@@ -173,14 +179,16 @@ void limni_mesh_star(const limni_mesh *mesh, const limni_mesh_sharpness *sharpne
     star->count = 0;
     star->sharpness = sharpness->vertices[control];
     if (!sharpness->edges) star->edges = star->beyond = NULL;
+    if (mesh->domain != LIMN_DOMAIN_QUAD) star->diagonals = NULL;
     const uint32_t start = star->closed ? h : mesh->first[control];
     uint32_t turning = start, last;
     do {
+        if (star->diagonals) star->diagonals[star->count] = diagonal_of(mesh, turning);
         add_neighbour(mesh, sharpness, turning, 1, star);
         last = turning;
         turning = limni_half_edge_turn(mesh, turning);
     } while (turning != start && turning != LIMNI_NONE);
     if (star->closed) return;
-    const uint32_t incoming = limni_half_edge_previous(last);
+    const uint32_t incoming = limni_half_edge_previous(mesh, last);
     add_neighbour(mesh, sharpness, incoming, 0, star);
 }

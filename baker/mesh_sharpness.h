@@ -7,9 +7,9 @@
 #include "scheme.h"
 
 typedef struct limni_mesh_sharpness {
-    limni_sharpness *edges;    ///< [3 * face_count] by half-edge, infinite on the boundary; NULL:
+    limni_sharpness *edges;    ///< [half_edge_count] by half-edge, infinite on the boundary; NULL:
                                ///< none is sharp, but a boundary if the rules need not see its ends
-    uint32_t (*seen)[2];       ///< [3 * face_count] what there is to know at the start and at the
+    uint32_t (*seen)[2];       ///< [half_edge_count] what there is to know at the start and at the
                                ///< end of each half-edge; NULL with `edges`
     limni_sharpness *vertices; ///< [control_count]
 } limni_mesh_sharpness;
@@ -44,8 +44,8 @@ static inline bool limni_is_crease(const limni_mesh_sharpness *sharpness, const 
 /// The star of a control point that faces use, in control points: counter-clockwise from half-edge
 /// `h`, which starts there, or from the boundary.
 ///
-/// star  ring, edges and beyond have room for its valence; edges and beyond become NULL where
-///       sharpness->edges is
+/// star  ring, edges and beyond have room for its valence, and diagonals unless they are NULL; edges
+///       and beyond become NULL where sharpness->edges is, diagonals where the domain is not quads
 void limni_mesh_star(const limni_mesh *mesh, const limni_mesh_sharpness *sharpness, uint32_t h,
                      limni_star *star);
 

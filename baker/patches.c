@@ -9,10 +9,10 @@
 
 /// How the faces of a mesh become patches.
 typedef struct arrangement {
-    const limni_mesh *mesh;
+    const limni_base *base;
+    const limni_mesh *mesh; ///< of the base
     const limni_rules *rules;
     limni_classes *classes, *pieces;
-    limni_mesh_sharpness sharpness;
     limni_classifier classifier;
     limni_assignment assigned; ///< its keys: without isolation
     uint32_t *class_indices;   ///< [face_count]; holes have none
@@ -30,13 +30,12 @@ static uint32_t slot_size_of(const limni_class *class) {
 static limn_bake_status begin_arrangement(limni_context *context, arrangement *a) {
     const limni_mesh *const mesh = a->mesh;
     LIMNI_TRY(limni_check_valences(context, mesh));
-    LIMNI_TRY(limni_mesh_sharpness_begin(context, mesh, a->rules, &a->sharpness));
-    LIMNI_TRY(limni_classifier_begin(context, &a->classifier, mesh, &a->sharpness, a->rules));
+    LIMNI_TRY(limni_classifier_begin(context, &a->classifier, mesh, a->base->sharpness, a->rules));
     LIMNI_TRY(limni_assignment_begin(context, mesh->face_count, &a->assigned));
     a->class_indices = limni_allocate(context, mesh->face_count, sizeof *a->class_indices);
     if (!a->class_indices) return LIMN_BAKE_MEMORY;
     return is_isolated(a)
-               ? limni_isolation_begin(context, mesh, &a->sharpness, a->rules, &a->isolation)
+               ? limni_isolation_begin(context, mesh, a->base->sharpness, a->rules, &a->isolation)
                : LIMN_BAKE_OK;
 }
 
@@ -45,7 +44,6 @@ static void end_arrangement(limni_context *context, arrangement *a) {
     limni_release(context, a->class_indices);
     limni_assignment_end(context, &a->assigned);
     limni_classifier_end(context, &a->classifier);
-    limni_mesh_sharpness_end(context, &a->sharpness);
 }
 
 static limn_bake_status assign_class(limni_context *context, arrangement *a, uint32_t face) {
@@ -172,22 +170,22 @@ static void store_points(uint64_t *pairs, uint32_t count, uint32_t slot_size, ui
     }
 }
 
-/// The points of a patch, which are control points, or of level 1 and then follow those. Returns
-/// how many.
+/// The points of a patch: vertices of the base mesh, or of the level that isolates it, which follow
+/// those. Returns how many.
 static uint32_t list_points(arrangement *a, uint32_t face, uint32_t rotation, uint64_t *pairs) {
     if (is_isolated(a)) {
         const uint32_t count = limni_isolation_list(&a->isolation, a->pieces, face, rotation);
+        const uint32_t first = a->base->first + a->mesh->control_count;
         for (uint32_t slot = 0; slot < count; slot++)
-            pairs[slot] =
-                (uint64_t)(a->mesh->control_count + a->isolation.points[slot]) << 32 | slot;
+            pairs[slot] = (uint64_t)(first + a->isolation.points[slot]) << 32 | slot;
         return count;
     }
     const limni_local_base *const base = limni_local_base_at(&a->classifier, face, rotation);
     const limni_class_key *const key = &a->classes->keys[a->assigned.keys[face]];
     uint32_t count = 0;
-    for (uint32_t slot = 0; slot < base->neighbourhood.control_count; slot++) {
+    for (uint32_t slot = 0; slot < base->control_count; slot++) {
         if (key->slots[slot] == LIMNI_SLOT_UNUSED) continue;
-        pairs[count++] = (uint64_t)base->controls[slot] << 32 | key->slots[slot];
+        pairs[count++] = (uint64_t)(a->base->first + base->controls[slot]) << 32 | key->slots[slot];
     }
     return count;
 }
@@ -221,38 +219,93 @@ static limn_bake_status list_creases(limni_context *context, const limni_mesh *m
                                      const limni_mesh_sharpness *sharpness,
                                      limni_patches *patches) {
     const uint32_t patch_count = patches->record.patch_count;
+    const uint32_t corner_count = limni_corner_count(patches);
     uint8_t *const creases = limni_allocate_zeroed(context, patch_count, 1);
     bool any = false;
     if (!creases) return LIMN_BAKE_MEMORY;
-    for (uint32_t h = 0; h < 3 * patch_count; h++) {
-        const uint32_t face = patches->faces[h / 3] >> 2, rotation = patches->faces[h / 3] & 3;
-        const bool crease = limni_is_crease(sharpness, mesh, 3 * face + (h + rotation) % 3);
-        creases[h / 3] |= (uint8_t)(crease << h % 3);
+    for (uint32_t e = 0; e < corner_count * patch_count; e++) {
+        const uint32_t patch = e / corner_count, edge = e % corner_count;
+        const bool crease =
+            limni_is_crease(sharpness, mesh, limni_patch_half_edge(patches, mesh, patch, edge));
+        creases[patch] |= (uint8_t)(crease << edge);
         any |= crease;
     }
     if (any) patches->creases = creases;
     return LIMN_BAKE_OK;
 }
 
-static limn_bake_status list_corner_normals(limni_context *context, limni_patches *patches) {
-    const uint32_t corner_count = 3 * patches->record.patch_count;
+static limn_bake_status list_corner_normals(limni_context *context, const limni_mesh *mesh,
+                                            limni_patches *patches) {
+    const uint32_t corner_count = limni_corner_count(patches);
+    const size_t count = corner_count * (size_t)patches->record.patch_count;
     if (!patches->normals.corners) return LIMN_BAKE_OK;
-    patches->corner_normals = limni_allocate(context, corner_count, sizeof(uint32_t));
+    patches->corner_normals = limni_allocate(context, count, sizeof(uint32_t));
     if (!patches->corner_normals) return LIMN_BAKE_MEMORY;
-    for (uint32_t c = 0; c < corner_count; c++) {
-        const uint32_t face = patches->faces[c / 3] >> 2, rotation = patches->faces[c / 3] & 3;
-        patches->corner_normals[c] = patches->normals.corners[3 * face + (c + rotation) % 3];
-    }
+    for (uint32_t c = 0; c < count; c++)
+        patches->corner_normals[c] =
+            patches->normals
+                .corners[limni_patch_half_edge(patches, mesh, c / corner_count, c % corner_count)];
     limni_release(context, patches->normals.corners);
     return LIMN_BAKE_OK;
 }
 
-static limn_bake_status make_normals(limni_context *context, const limni_mesh *mesh,
-                                     const limni_mesh_sharpness *sharpness,
+static limn_bake_status make_normals(limni_context *context, const limni_base *base,
                                      const limni_rules *rules, limni_patches *patches) {
     if (rules->normals != LIMN_NORMALS_EXACT) return LIMN_BAKE_OK;
-    LIMNI_TRY(limni_control_normals_build(context, mesh, sharpness, rules, &patches->normals));
-    return list_corner_normals(context, patches);
+    LIMNI_TRY(limni_control_normals_build(context, base->mesh, base->sharpness, rules,
+                                          &patches->normals));
+    for (uint64_t r = 0; r < patches->normals.ring_size; r++)
+        patches->normals.ring[r] += base->first;
+    return list_corner_normals(context, base->mesh, patches);
+}
+
+// ---- Points
+
+/// Appends points that follow from those from `first` on.
+static limn_bake_status append_points(limni_context *context, const limni_stencils *added,
+                                      uint32_t count, uint32_t first, limni_patches *patches) {
+    limni_stencils *const all = &patches->stencils;
+    const uint32_t before = patches->record.point_count;
+    const uint32_t point = before - patches->record.control_count;
+    const uint32_t term = all->offsets ? all->offsets[point] : 0, terms = added->offsets[count];
+    if (terms > UINT32_MAX - term || count > UINT32_MAX - before)
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: too many points", patches->name);
+    float(*const controls)[3] =
+        limni_resize(context, patches->controls, (size_t)before + count, sizeof *controls);
+    if (!controls) return LIMN_BAKE_MEMORY;
+    patches->controls = controls;
+    all->offsets =
+        limni_resize(context, all->offsets, (size_t)point + count + 1, sizeof *all->offsets);
+    all->terms = limni_resize(context, all->terms, (size_t)term + terms, sizeof *all->terms);
+    if (!all->offsets || !all->terms) return LIMN_BAKE_MEMORY;
+    for (uint32_t p = 0; p <= count; p++)
+        all->offsets[point + p] = term + added->offsets[p];
+    for (uint32_t t = 0; t < terms; t++)
+        all->terms[term + t] =
+            (limn_file_term){first + added->terms[t].control, added->terms[t].weight};
+    patches->record.point_count = before + count;
+    const limni_stencils own = {all->offsets + point, all->terms};
+    limni_place_points(&own, controls, before, count);
+    return LIMN_BAKE_OK;
+}
+
+/// Behind the control points, the vertices of a mesh that was divided, and those of the level that
+/// isolates it.
+static limn_bake_status place_points(limni_context *context, const arrangement *a,
+                                     limni_patches *patches) {
+    const limni_base *const base = a->base;
+    const uint32_t count = base->source->control_count;
+    if (!base->divided && !is_isolated(a)) return LIMN_BAKE_OK;
+    patches->controls = limni_allocate(context, count, sizeof *patches->controls);
+    if (!patches->controls) return LIMN_BAKE_MEMORY;
+    memcpy(patches->controls, base->source->controls, count * sizeof *patches->controls);
+    if (base->divided) {
+        LIMNI_TRY(append_points(context, &base->stencils, base->mesh->control_count, 0, patches));
+        patches->record.divided_count = base->mesh->control_count;
+    }
+    if (!is_isolated(a)) return LIMN_BAKE_OK;
+    return append_points(context, &a->isolation.stencils, a->isolation.refined.mesh.control_count,
+                         base->first, patches);
 }
 
 // ---- All steps
@@ -274,50 +327,32 @@ static void find_bounds(const limni_mesh *mesh, limn_file_mesh *record) {
     }
 }
 
-/// The control points, and behind them in the bind pose those of level 1.
-static limn_bake_status place_points(limni_context *context, const limni_mesh *mesh,
-                                     const limni_refined *refined, limni_patches *patches) {
-    const uint32_t count = mesh->control_count + refined->mesh.control_count;
-    float(*const points)[3] = limni_allocate(context, count, sizeof *points);
-    if (!points) return LIMN_BAKE_MEMORY;
-    memcpy(points, mesh->controls, mesh->control_count * sizeof *points);
-    limn_mesh view = {.control_count = mesh->control_count,
-                      .point_count = count,
-                      .stencils = refined->stencils,
-                      .terms = refined->terms,
-                      .kernels = limn_kernels_select(LIMN_ISA_ALL, LIMN_FAMILY_REPRODUCIBLE)};
-    memcpy(view.origin, patches->record.origin, sizeof view.origin);
-    limn_mesh_refine(&view, points[0]);
-    patches->controls = points;
-    patches->record.point_count = count;
-    patches->stencils = refined->stencils;
-    patches->terms = refined->terms;
-    return LIMN_BAKE_OK;
-}
-
-limn_bake_status limni_patches_build(limni_context *context, const limni_mesh *mesh,
+limn_bake_status limni_patches_build(limni_context *context, const limni_base *base,
                                      const limni_rules *rules, limni_classes *classes,
                                      limni_classes *pieces, limni_patches *patches) {
+    const limni_mesh *const mesh = base->mesh;
     *patches = (limni_patches){
         .name = mesh->name,
-        .controls = mesh->controls,
+        .controls = base->source->controls,
         .rules = *rules,
-        .sharp = limni_has_sharpness(mesh),
-        .record = {.control_count = mesh->control_count,
-                   .point_count = mesh->control_count,
+        .sharp = limni_has_sharpness(base->source),
+        .record = {.control_count = base->source->control_count,
+                   .point_count = base->source->control_count,
+                   .domain = mesh->domain,
                    .patch_count = mesh->face_count - mesh->hole_count,
                    .hole_count = mesh->hole_count},
     };
-    find_bounds(mesh, &patches->record);
-    arrangement a = {.mesh = mesh, .rules = rules, .classes = classes, .pieces = pieces};
+    find_bounds(base->source, &patches->record);
+    arrangement a = {
+        .base = base, .mesh = mesh, .rules = rules, .classes = classes, .pieces = pieces};
     LIMNI_TRY(begin_arrangement(context, &a));
     LIMNI_TRY(assign_classes(context, &a));
     LIMNI_TRY(make_runs(context, &a, patches));
     LIMNI_TRY(order_faces(context, &a, patches));
     LIMNI_TRY(list_controls(context, &a, patches));
-    LIMNI_TRY(list_creases(context, mesh, &a.sharpness, patches));
-    LIMNI_TRY(make_normals(context, mesh, &a.sharpness, rules, patches));
-    if (is_isolated(&a)) LIMNI_TRY(place_points(context, mesh, &a.isolation.refined, patches));
+    LIMNI_TRY(list_creases(context, mesh, base->sharpness, patches));
+    LIMNI_TRY(make_normals(context, base, rules, patches));
+    LIMNI_TRY(place_points(context, &a, patches));
     end_arrangement(context, &a);
     return LIMN_BAKE_OK;
 }

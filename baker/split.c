@@ -24,8 +24,8 @@ typedef struct junction {
 /// Mesh, cuts and vertices while a mesh is split.
 typedef struct splitter {
     limni_mesh *mesh;
-    unsigned char *cut;  ///< [3 * face_count]
-    unsigned char *seen; ///< [3 * face_count]
+    unsigned char *cut;  ///< [half_edge_count]
+    unsigned char *seen; ///< [half_edge_count]
     junction *junctions; ///< [control_count] by the control points as they were
     bool may_pass;       ///< whether sheets of any number of faces have one crease through a vertex
 } splitter;
@@ -37,7 +37,7 @@ static bool is_passed(const splitter *s, const limni_fan *fan, const uint32_t en
     const bool same = (ends[0] == j->ends[0] && ends[1] == j->ends[1]) ||
                       (ends[0] == j->ends[1] && ends[1] == j->ends[0]);
     return !fan->closed && same && ends[0] != ends[1] && s->cut[fan->first] &&
-           s->cut[limni_half_edge_previous(fan->last)];
+           s->cut[limni_half_edge_previous(s->mesh, fan->last)];
 }
 
 /// What is sharp on one sheet makes a corner of all. They can take that for a sharpness of the
@@ -54,7 +54,7 @@ static void meet_spokes(const splitter *s, const limni_fan *fan, junction *j) {
 
 static void meet_fan(const splitter *s, const limni_fan *fan) {
     const uint32_t control = limni_half_edge_start(s->mesh, fan->first);
-    const uint32_t last = limni_half_edge_previous(fan->last);
+    const uint32_t last = limni_half_edge_previous(s->mesh, fan->last);
     const uint32_t ends[2] = {limni_half_edge_end(s->mesh, fan->first),
                               limni_half_edge_start(s->mesh, last)};
     junction *const j = &s->junctions[control];
@@ -68,7 +68,7 @@ static void meet_fan(const splitter *s, const limni_fan *fan) {
 }
 
 static void meet_fans(const splitter *s) {
-    for (uint32_t h = 0; h < 3 * s->mesh->face_count; h++) {
+    for (uint32_t h = 0; h < s->mesh->half_edge_count; h++) {
         if (s->seen[h]) continue;
         const limni_fan fan = limni_walk_fan(s->mesh, h, s->seen);
         meet_fan(s, &fan);
@@ -81,7 +81,7 @@ static bool is_corner(const junction *j) {
 }
 
 static void sharpen(const splitter *s) {
-    for (uint32_t h = 0; h < 3 * s->mesh->face_count; h++) {
+    for (uint32_t h = 0; h < s->mesh->half_edge_count; h++) {
         if (s->cut[h]) s->mesh->edge_sharpness[h] = INFINITY;
     }
     for (uint32_t c = 0; c < s->mesh->control_count; c++) {
@@ -125,16 +125,16 @@ static limn_bake_status copy_controls(limni_context *context, const splitter *s,
 /// Gives each fan the next of its vertex's control points.
 static void renumber_faces(const splitter *s) {
     limni_mesh *const mesh = s->mesh;
-    memset(s->seen, 0, 3 * (size_t)mesh->face_count);
-    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
+    memset(s->seen, 0, mesh->half_edge_count);
+    for (uint32_t h = 0; h < mesh->half_edge_count; h++) {
         if (s->seen[h]) continue;
         const limni_fan fan = limni_walk_fan(mesh, h, s->seen);
         const uint32_t control = s->junctions[limni_half_edge_start(mesh, h)].first++;
         uint32_t turning = fan.first;
-        mesh->faces[turning / 3][turning % 3] = control;
+        mesh->corners[turning] = control;
         while (turning != fan.last) {
             turning = limni_half_edge_turn(mesh, turning);
-            mesh->faces[turning / 3][turning % 3] = control;
+            mesh->corners[turning] = control;
         }
     }
 }
@@ -148,7 +148,7 @@ static int compare_keys(const void *a, const void *b) {
 
 static limn_bake_status count_cut_edges(limni_context *context, const splitter *s,
                                         uint32_t *count) {
-    const uint32_t half_edge_count = 3 * s->mesh->face_count;
+    const uint32_t half_edge_count = s->mesh->half_edge_count;
     uint64_t *const keys = limni_allocate(context, half_edge_count, sizeof *keys);
     size_t key_count = 0;
     if (!keys) return LIMN_BAKE_MEMORY;
@@ -194,7 +194,7 @@ static limn_bake_status split(limni_context *context, const splitter *s) {
 }
 
 limn_bake_status limni_split(limni_context *context, limni_mesh *mesh) {
-    const size_t half_edge_count = 3 * (size_t)mesh->face_count;
+    const size_t half_edge_count = mesh->half_edge_count;
     const splitter s = {
         .mesh = mesh,
         // Lomont's masks of a crease depend on how many faces there are on its side.

@@ -12,8 +12,10 @@
 /// first and the last neighbour.
 typedef struct limni_star {
     bool closed;
-    uint32_t count;            ///< neighbours
-    uint32_t *ring;            ///< [count]
+    uint32_t count;      ///< neighbours
+    uint32_t *ring;      ///< [count]
+    uint32_t *diagonals; ///< [limni_star_face_count()] in quads, the vertex across the face to
+                         ///< the left of each neighbour; NULL in other faces
     limni_sharpness sharpness; ///< of the vertex
     limni_sharpness *edges;    ///< [count] of the edges to the ring, infinite on a boundary; NULL:
                                ///< none is sharp, but a boundary if the rules need not see its ends
@@ -61,6 +63,10 @@ static inline uint32_t limni_star_left(const limni_star *star, uint32_t r) {
 }
 static inline uint32_t limni_star_right(const limni_star *star, uint32_t r) {
     return r > 0 ? r - 1 : star->count - 1;
+}
+
+static inline uint32_t limni_star_face_count(const limni_star *star) {
+    return star->closed ? star->count : star->count - 1;
 }
 
 /// In half steps around the ring of a vertex that is new on an edge, which has a row of its own on

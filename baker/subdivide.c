@@ -1,54 +1,47 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Symbolic subdivision after Brickhill: a vertex is a vector of coefficients of the control points.
- * Of each level only the vertices inside the triangle are kept with their stars (the *core*; core
- * vertex r is row r of the domain), and of the vertices around them only the coefficients: the
- * edges that touch a core vertex are all that the next level needs, and their masks are complete.
+ * Of each level only the faces that touch a vertex inside the patch are kept (the *core*): the stars
+ * of the core are whole, and so are all masks that the next level needs.
  */
 #include "subdivide.h"
 
-#include "limn/limn.h"
-#include "mesh.h"
+#include "masks.h"
+#include "refine.h"
 
 #include <string.h>
-
-enum { CORE_MAX = 153 };
-
-typedef struct complex {
-    uint32_t core_count;
-    uint32_t vertex_count;      ///< core vertices first
-    limni_star stars[CORE_MAX]; ///< of the core
-    uint32_t *
-        edge_points[CORE_MAX]; ///< parallel to the rings: the vertex of the next level on that edge
-    uint32_t *ring_pool;       ///< what rings and edge_points point into
-    uint32_t *sharpness_pool;  ///< what edges and beyond point into; NULL: no edge is sharp
-    limni_fixed *coefficients; ///< [vertex_count][control_count]
-} complex;
 
 typedef struct subdivision {
     limni_context *context;
     const limni_rules *rules;
     const limn_domain *domain;
     uint32_t control_count;
-    uint32_t weight_count; ///< of a vertex mask, at most
-    limni_wide *sums;      ///< [control_count]
-    limni_fixed *weights;  ///< of two vertex masks
+    limni_wide *sums; ///< [control_count]
+    uint16_t row_at[LIMN_GRID_SIZE + 1][LIMN_GRID_SIZE + 1];
 } subdivision;
 
-// ---- Masks
+/// A level: its vertices in `mesh` with their coefficients, those of the core with their rows.
+typedef struct level {
+    limni_mesh mesh;
+    limni_mesh_sharpness sharpness;
+    uint32_t *rows;            ///< [control_count]; LIMNI_NONE outside the core
+    bool *inside;              ///< [face_count] whether a face is part of the patch
+    limni_fixed *coefficients; ///< [control_count][K]
+} level;
 
-static limni_fixed *vertex_of(const subdivision *s, const complex *c, uint32_t vertex) {
-    return c->coefficients + (size_t)vertex * s->control_count;
+static limni_fixed *coefficients_of(const subdivision *s, const level *l, uint32_t vertex) {
+    return l->coefficients + (size_t)vertex * s->control_count;
 }
+
+// ---- Sums
 
 static void begin_sum(const subdivision *s) {
     memset(s->sums, 0, s->control_count * sizeof *s->sums);
 }
 
-static void add_to_sum(const subdivision *s, const complex *c, uint32_t vertex,
-                       limni_fixed weight) {
+static void add_to_sum(const subdivision *s, const level *l, uint32_t vertex, limni_fixed weight) {
     if (weight == 0) return;
-    const limni_fixed *const coefficients = vertex_of(s, c, vertex);
+    const limni_fixed *const coefficients = coefficients_of(s, l, vertex);
     for (uint32_t k = 0; k < s->control_count; k++)
         s->sums[k] += (limni_wide)weight * coefficients[k];
 }
@@ -58,415 +51,395 @@ static void end_sum(const subdivision *s, limni_fixed *dst) {
         dst[k] = limni_fixed_round(s->sums[k]);
 }
 
-/// Applies a vertex mask around core vertex v.
-static void apply_vertex_mask(const subdivision *s, const complex *c, uint32_t v,
-                              const limni_fixed *weights, limni_fixed *dst) {
+static void sum_terms(const subdivision *s, const level *l, const limni_masks *masks,
+                      limni_fixed *dst) {
     begin_sum(s);
-    add_to_sum(s, c, v, weights[0]);
-    for (uint32_t r = 0; r < c->stars[v].count; r++)
-        add_to_sum(s, c, c->stars[v].ring[r], weights[1 + r]);
+    for (uint32_t t = 0; t < masks->term_count; t++)
+        add_to_sum(s, l, masks->terms[t].control, masks->terms[t].weight);
     end_sum(s, dst);
 }
 
-// ---- Stars
+// ---- Memory
 
-/// Applies the edge mask between core vertex v and its ring vertex r.
-static void apply_edge_mask(const subdivision *s, const complex *c, uint32_t v, uint32_t r,
-                            limni_fixed *dst) {
-    const limni_star *const star = &c->stars[v];
-    const limni_edge_feature feature = limni_star_edge_feature(s->rules, star, r);
-    const limni_edge_mask mask = limni_loop_edge_mask(&feature);
-    begin_sum(s);
-    add_to_sum(s, c, v, mask.ends[0]);
-    add_to_sum(s, c, star->ring[r], mask.ends[1]);
-    add_to_sum(s, c, star->ring[limni_star_left(star, r)], mask.opposite);
-    add_to_sum(s, c, star->ring[limni_star_right(star, r)], mask.opposite);
-    end_sum(s, dst);
+static limn_bake_status begin_subdivision(limni_context *context, const limni_rules *rules,
+                                          const limni_neighbourhood *neighbourhood,
+                                          subdivision *s) {
+    const uint32_t control_count = neighbourhood->mesh.control_count;
+    *s = (subdivision){.context = context,
+                       .rules = rules,
+                       .domain = limn_domain_get(neighbourhood->mesh.domain),
+                       .control_count = control_count,
+                       .sums = limni_allocate(context, control_count, sizeof *s->sums)};
+    for (uint16_t row = 0; row < s->domain->row_counts[LIMN_LEVEL_MAX]; row++)
+        s->row_at[s->domain->rows[row].i][s->domain->rows[row].j] = row;
+    return s->sums ? LIMN_BAKE_OK : LIMN_BAKE_MEMORY;
 }
 
-/// The row at grid coordinates (i, j), or LIMNI_NONE outside the triangle.
-static uint32_t grid_row(const subdivision *s, int i, int j) {
-    for (uint32_t row = 0; row < CORE_MAX; row++) {
-        if (s->domain->rows[row].i == i && s->domain->rows[row].j == j) return row;
-    }
-    return LIMNI_NONE;
+static void end_subdivision(const subdivision *s) {
+    limni_release(s->context, s->sums);
 }
 
-/// The place, in the ring of core vertex w, of the edge that is place r in the ring of core vertex
-/// v. Two faces back to back give pairs of edges between the same vertices: what lies beside tells
-/// them apart.
-static uint32_t opposite_place(const complex *c, uint32_t v, uint32_t r) {
-    const limni_star *const from = &c->stars[v], *const to = &c->stars[from->ring[r]];
-    const uint32_t left =
-        limni_star_has_left(from, r) ? from->ring[limni_star_left(from, r)] : LIMNI_NONE;
-    const uint32_t right =
-        limni_star_has_right(from, r) ? from->ring[limni_star_right(from, r)] : LIMNI_NONE;
-    for (uint32_t q = 0; q < to->count; q++) {
-        if (to->ring[q] != v) continue;
-        const uint32_t seen_right =
-            limni_star_has_left(to, q) ? to->ring[limni_star_left(to, q)] : LIMNI_NONE;
-        const uint32_t seen_left =
-            limni_star_has_right(to, q) ? to->ring[limni_star_right(to, q)] : LIMNI_NONE;
-        if (seen_left == left && seen_right == right) return q;
-    }
-    return LIMNI_NONE; // not reached: both ends see the same edge
+static limn_bake_status allocate_level(const subdivision *s, level *l) {
+    const size_t count = l->mesh.control_count;
+    l->rows = limni_allocate(s->context, count, sizeof *l->rows);
+    l->inside = limni_allocate_zeroed(s->context, l->mesh.face_count, sizeof *l->inside);
+    l->coefficients =
+        limni_allocate_zeroed(s->context, count * s->control_count, sizeof *l->coefficients);
+    if (!l->rows || !l->inside || !l->coefficients) return LIMN_BAKE_MEMORY;
+    memset(l->rows, 0xff, count * sizeof *l->rows);
+    return LIMN_BAKE_OK;
+}
+
+static void release_level(const subdivision *s, level *l) {
+    limni_mesh_end(s->context, &l->mesh);
+    limni_mesh_sharpness_end(s->context, &l->sharpness);
+    limni_release(s->context, l->rows);
+    limni_release(s->context, l->inside);
+    limni_release(s->context, l->coefficients);
 }
 
 // ---- One level
 
-/// The place of the grid edge on which `row` appears in the ring of its first parent. Where there
-/// are several edges between the two parents, the grid triangle beside it tells which one is meant.
-static uint32_t grid_edge_place(const subdivision *s, const complex *c, uint32_t row) {
-    const uint16_t *const parents = s->domain->rows[row].parents;
-    const limn_row a = s->domain->rows[parents[0]], b = s->domain->rows[parents[1]];
-    const limni_star *const star = &c->stars[parents[0]];
-    const int di = b.i - a.i, dj = b.j - a.j;
-    // A turn by 60 degrees takes (di, dj) to (-dj, di + dj), and back to (di + dj, -di).
-    const uint32_t left = grid_row(s, a.i - dj, a.j + di + dj);
-    const uint32_t right = grid_row(s, a.i + di + dj, a.j - di);
-    for (uint32_t r = 0; r < star->count; r++) {
-        if (star->ring[r] != parents[1]) continue;
-        if (left != LIMNI_NONE
-                ? limni_star_has_left(star, r) && star->ring[limni_star_left(star, r)] == left
-                : limni_star_has_right(star, r) && star->ring[limni_star_right(star, r)] == right)
-            return r;
-    }
-    return LIMNI_NONE; // not reached: the grid is part of the complex
+/// What is kept of a refined mesh: the vertices of the core, and the faces around them.
+typedef struct selection {
+    const limni_refined *refined;
+    uint32_t *rows;     ///< [points]
+    bool *inside;       ///< [faces]
+    uint32_t *controls; ///< [kept_count] points by slot: the core first
+    uint32_t *slots;    ///< [points] or LIMNI_NONE
+    uint32_t core_count, kept_count;
+} selection;
+
+static limn_bake_status begin_selection(const subdivision *s, const limni_refined *refined,
+                                        selection *kept) {
+    const size_t count = refined->mesh.control_count;
+    *kept = (selection){
+        .refined = refined,
+        .rows = limni_allocate(s->context, count, sizeof *kept->rows),
+        .inside = limni_allocate_zeroed(s->context, refined->mesh.face_count, sizeof(bool)),
+        .controls = limni_allocate(s->context, count, sizeof *kept->controls),
+        .slots = limni_allocate(s->context, count, sizeof *kept->slots)};
+    if (!kept->rows || !kept->inside || !kept->controls || !kept->slots) return LIMN_BAKE_MEMORY;
+    memset(kept->rows, 0xff, count * sizeof *kept->rows);
+    memset(kept->slots, 0xff, count * sizeof *kept->slots);
+    return LIMN_BAKE_OK;
 }
 
-static void set_edge_point(complex *c, uint32_t v, uint32_t r, uint32_t point) {
-    const uint32_t w = c->stars[v].ring[r];
-    c->edge_points[v][r] = point;
-    if (w < c->core_count) c->edge_points[w][opposite_place(c, v, r)] = point;
+static void end_selection(const subdivision *s, const selection *kept) {
+    limni_release(s->context, kept->rows);
+    limni_release(s->context, kept->inside);
+    limni_release(s->context, kept->controls);
+    limni_release(s->context, kept->slots);
 }
 
-/// Numbers the vertices of the next level on all edges that touch the core: new rows first, as the
-/// domain has them, then those outside. Returns how many vertices the next level has.
-static uint32_t number_edge_points(const subdivision *s, complex *c, uint32_t next_core_count) {
-    for (uint32_t v = 0; v < c->core_count; v++)
-        memset(c->edge_points[v], 0xff, c->stars[v].count * sizeof(uint32_t));
-    for (uint32_t row = c->core_count; row < next_core_count; row++) {
-        set_edge_point(c, s->domain->rows[row].parents[0], grid_edge_place(s, c, row), row);
+/// The row in the middle of others.
+static uint32_t middle_row(const subdivision *s, const uint32_t *rows, uint32_t count) {
+    uint32_t i = 0, j = 0;
+    for (uint32_t r = 0; r < count; r++) {
+        i += s->domain->rows[rows[r]].i;
+        j += s->domain->rows[rows[r]].j;
     }
-    uint32_t count = next_core_count;
-    for (uint32_t v = 0; v < c->core_count; v++) {
-        for (uint32_t r = 0; r < c->stars[v].count; r++) {
-            if (c->edge_points[v][r] == LIMNI_NONE) set_edge_point(c, v, r, count++);
+    return s->row_at[i / count][j / count];
+}
+
+/// Rows of a face inside the patch, and which of its children are.
+static void find_rows_of_face(const subdivision *s, const level *l, uint32_t face,
+                              selection *kept) {
+    const limni_mesh *const mesh = &l->mesh;
+    const limni_refined *const refined = kept->refined;
+    uint32_t rows[LIMN_CORNER_MAX];
+    const uint32_t first = mesh->offsets[face], size = limni_face_size(mesh, face);
+    for (uint32_t k = 0; k < size; k++)
+        rows[k] = l->rows[mesh->corners[first + k]];
+    for (uint32_t k = 0; k < size; k++)
+        kept->rows[refined->edge_points[first + k]] =
+            middle_row(s, (uint32_t[]){rows[k], rows[(k + 1) % size]}, 2);
+    if (mesh->domain == LIMN_DOMAIN_QUAD)
+        kept->rows[refined->first_face_point + face] = middle_row(s, rows, size);
+    const uint32_t end = limni_first_child(mesh, face + 1);
+    for (uint32_t child = limni_first_child(mesh, face); child < end; child++)
+        kept->inside[child] = true;
+}
+
+/// Vertices keep their rows.
+static void find_rows(const subdivision *s, const level *l, selection *kept) {
+    memcpy(kept->rows, l->rows, l->mesh.control_count * sizeof *kept->rows);
+    for (uint32_t face = 0; face < l->mesh.face_count; face++) {
+        if (l->inside[face]) find_rows_of_face(s, l, face, kept);
+    }
+}
+
+static void keep(selection *kept, uint32_t point) {
+    if (kept->slots[point] != LIMNI_NONE) return;
+    kept->slots[point] = kept->kept_count;
+    kept->controls[kept->kept_count++] = point;
+}
+
+/// The core, and all other corners of the faces around it.
+static void select_points(selection *kept) {
+    const limni_mesh *const mesh = &kept->refined->mesh;
+    for (uint32_t point = 0; point < mesh->control_count; point++) {
+        if (kept->rows[point] != LIMNI_NONE) keep(kept, point);
+    }
+    kept->core_count = kept->kept_count;
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        bool touches = false;
+        for (uint32_t h = mesh->offsets[face]; h < mesh->offsets[face + 1]; h++)
+            touches |= kept->slots[mesh->corners[h]] < kept->core_count;
+        for (uint32_t h = mesh->offsets[face]; h < mesh->offsets[face + 1] && touches; h++)
+            keep(kept, mesh->corners[h]);
+    }
+}
+
+/// The coefficients of the points that are kept, of which each has a whole mask.
+static limn_bake_status apply_masks(const subdivision *s, const level *l, const selection *kept,
+                                    level *next) {
+    const limni_mesh *const mesh = &l->mesh;
+    const limni_refined *const refined = kept->refined;
+    limni_masks masks;
+    LIMNI_TRY(limni_masks_begin(s->context, &masks, mesh, &l->sharpness, s->rules));
+    for (uint32_t v = 0; v < mesh->control_count; v++) {
+        if (mesh->first[v] == LIMNI_NONE) continue;
+        limni_masks_look(&masks, v, LIMNI_NONE);
+        if (kept->slots[v] != LIMNI_NONE) {
+            limni_masks_vertex(&masks, v);
+            sum_terms(s, l, &masks, coefficients_of(s, next, kept->slots[v]));
+        }
+        for (uint32_t r = 0; r < masks.star.count; r++) {
+            const uint32_t slot = kept->slots[refined->edge_points[masks.ring_edges[r]]];
+            const uint32_t other = masks.star.ring[r];
+            if (slot == LIMNI_NONE || (other < v && mesh->first[other] != LIMNI_NONE)) continue;
+            limni_masks_edge(&masks, v, r);
+            sum_terms(s, l, &masks, coefficients_of(s, next, slot));
         }
     }
-    return count;
+    for (uint32_t f = 0; f < mesh->face_count && mesh->domain == LIMN_DOMAIN_QUAD; f++) {
+        const uint32_t slot = kept->slots[refined->first_face_point + f];
+        if (slot == LIMNI_NONE) continue;
+        limni_masks_face(&masks, f);
+        sum_terms(s, l, &masks, coefficients_of(s, next, slot));
+    }
+    limni_masks_end(s->context, &masks);
+    return LIMN_BAKE_OK;
 }
 
-/// The ring of a new vertex on the edge from core vertex a to its ring vertex r.
-static limni_star edge_point_star(const complex *c, uint32_t a, uint32_t r, uint32_t *ring) {
-    const limni_star *const star = &c->stars[a];
-    const uint32_t b = star->ring[r], q = opposite_place(c, a, r);
-    const limni_star *const other = &c->stars[b];
-    const bool left = limni_star_has_left(star, r), right = limni_star_has_right(star, r);
-    limni_star made = {.closed = left && right, .ring = ring};
-    if (left) {
-        ring[made.count++] = b;
-        ring[made.count++] = c->edge_points[b][limni_star_right(other, q)];
-        ring[made.count++] = c->edge_points[a][limni_star_left(star, r)];
-    }
-    ring[made.count++] = a;
-    if (right) {
-        ring[made.count++] = c->edge_points[a][limni_star_right(star, r)];
-        ring[made.count++] = c->edge_points[b][limni_star_left(other, q)];
-        if (!left) ring[made.count++] = b;
-    }
-    return made;
+static limn_bake_status cut_out(const subdivision *s, const selection *kept, level *next) {
+    const limni_refined *const refined = kept->refined;
+    const limni_cutting cutting = {.mesh = &refined->mesh,
+                                   .sharpness = &refined->sharpness,
+                                   .controls = kept->controls,
+                                   .control_count = kept->kept_count,
+                                   .inner_count = kept->core_count,
+                                   .half_edge = refined->mesh.first[kept->controls[0]],
+                                   .with_edges = true};
+    limni_neighbourhood part;
+    LIMNI_TRY(limni_neighbourhood_begin(s->context, &cutting, &part));
+    *next = (level){.mesh = part.mesh, .sharpness = part.sharpness};
+    LIMNI_TRY(allocate_level(s, next));
+    for (uint32_t slot = 0; slot < kept->core_count; slot++)
+        next->rows[slot] = kept->rows[kept->controls[slot]];
+    for (uint32_t f = 0; f < next->mesh.face_count; f++)
+        next->inside[f] = kept->inside[part.faces[f]];
+    limni_release(s->context, part.faces);
+    return LIMN_BAKE_OK;
 }
 
-static void make_rings(const subdivision *s, const complex *c, complex *next) {
-    uint32_t *ring = next->ring_pool;
-    for (uint32_t row = 0; row < next->core_count; row++) {
-        limni_star *const star = &next->stars[row];
-        if (row < c->core_count) {
-            const limni_star *const old = &c->stars[row];
-            *star = (limni_star){.closed = old->closed, .count = old->count, .ring = ring};
-            memcpy(ring, c->edge_points[row], star->count * sizeof *ring);
-        } else {
-            const uint32_t parent = s->domain->rows[row].parents[0];
-            *star = edge_point_star(c, parent, grid_edge_place(s, c, row), ring);
+static limn_bake_status refine(const subdivision *s, const level *l, level *next) {
+    limni_refined refined;
+    selection kept;
+    LIMNI_TRY(limni_refine(s->context, &l->mesh, &l->sharpness, s->rules, &refined));
+    LIMNI_TRY(begin_selection(s, &refined, &kept));
+    find_rows(s, l, &kept);
+    select_points(&kept);
+    LIMNI_TRY(cut_out(s, &kept, next));
+    LIMNI_TRY(apply_masks(s, l, &kept, next));
+    end_selection(s, &kept);
+    limni_refined_end(s->context, &refined);
+    return LIMN_BAKE_OK;
+}
+
+// ---- The limit
+
+/// A star of a level, and what it is made of, as a level of its own, which is closed under
+/// subdivision.
+static limn_bake_status begin_fan(const subdivision *s, const level *l, const limni_star *star,
+                                  uint32_t vertex, level *fan) {
+    limni_neighbourhood part;
+    LIMNI_TRY(limni_fan_begin(s->context, star, &part));
+    *fan = (level){.mesh = part.mesh, .sharpness = part.sharpness};
+    LIMNI_TRY(allocate_level(s, fan));
+    const size_t size = s->control_count * sizeof(limni_fixed);
+    fan->rows[0] = 0;
+    memcpy(coefficients_of(s, fan, 0), coefficients_of(s, l, vertex), size);
+    for (uint32_t r = 0; r < star->count; r++)
+        memcpy(coefficients_of(s, fan, 1 + r), coefficients_of(s, l, star->ring[r]), size);
+    for (uint32_t f = 0; star->diagonals && f < limni_star_face_count(star); f++)
+        memcpy(coefficients_of(s, fan, 1 + star->count + f),
+               coefficients_of(s, l, star->diagonals[f]), size);
+    return LIMN_BAKE_OK;
+}
+
+/// Refines a fan until its vertex is settled.
+static limn_bake_status settle(const subdivision *s, level *fan, limni_masks *masks) {
+    LIMNI_TRY(limni_masks_begin(s->context, masks, &fan->mesh, &fan->sharpness, s->rules));
+    limni_masks_look(masks, 0, LIMNI_NONE);
+    while (!limni_star_is_settled(s->rules, &masks->star)) {
+        level next;
+        LIMNI_TRY(refine(s, fan, &next));
+        limni_masks_end(s->context, masks);
+        release_level(s, fan);
+        *fan = next;
+        LIMNI_TRY(limni_masks_begin(s->context, masks, &fan->mesh, &fan->sharpness, s->rules));
+        limni_masks_look(masks, 0, LIMNI_NONE);
+    }
+    return LIMN_BAKE_OK;
+}
+
+/// Applies a mask to the star that was looked at.
+static void apply_mask(const subdivision *s, const level *l, const limni_masks *masks,
+                       uint32_t vertex, const limni_fixed *weights, limni_fixed *dst) {
+    const limni_star *const star = &masks->star;
+    begin_sum(s);
+    add_to_sum(s, l, vertex, weights[0]);
+    for (uint32_t r = 0; r < star->count; r++)
+        add_to_sum(s, l, star->ring[r], weights[1 + r]);
+    for (uint32_t f = 0; star->diagonals && f < limni_star_face_count(star); f++)
+        add_to_sum(s, l, star->diagonals[f], weights[1 + star->count + f]);
+    end_sum(s, dst);
+}
+
+/// Where the limit of one row goes.
+typedef struct limit_row {
+    limni_fixed *position;    ///< NULL: not wanted
+    limni_fixed *tangents[2]; ///< NULL: not wanted
+    uint32_t half_steps;      ///< of the tangents
+} limit_row;
+
+/// The limit of a vertex whose star was looked at and is settled.
+static void project(const subdivision *s, const level *l, const limni_masks *masks, uint32_t vertex,
+                    const limit_row *dst) {
+    limni_fixed *const *const weights = masks->weights;
+    if (dst->position) {
+        masks->scheme->limit_mask(s->rules, &masks->star, weights[0]);
+        apply_mask(s, l, masks, vertex, weights[0], dst->position);
+    }
+    if (!dst->tangents[0]) return;
+    masks->scheme->tangent_masks(s->rules, &masks->star, dst->half_steps, weights[0], weights[1]);
+    apply_mask(s, l, masks, vertex, weights[0], dst->tangents[0]);
+    apply_mask(s, l, masks, vertex, weights[1], dst->tangents[1]);
+}
+
+/// The limit of a vertex of a level, whose star was looked at.
+static limn_bake_status project_vertex(const subdivision *s, const level *l,
+                                       const limni_masks *masks, uint32_t vertex,
+                                       const limit_row *dst) {
+    if (limni_star_is_settled(s->rules, &masks->star)) {
+        project(s, l, masks, vertex, dst);
+        return LIMN_BAKE_OK;
+    }
+    level fan;
+    limni_masks settled;
+    LIMNI_TRY(begin_fan(s, l, &masks->star, vertex, &fan));
+    LIMNI_TRY(settle(s, &fan, &settled));
+    project(s, &fan, &settled, 0, dst);
+    limni_masks_end(s->context, &settled);
+    release_level(s, &fan);
+    return LIMN_BAKE_OK;
+}
+
+/// In half steps around a ring, where the tangents of a row start: on an edge, at the next row along
+/// it; inside, halfway between the directions of i and j, so that mirrored rows have mirrored
+/// tangents.
+static uint32_t tangent_start(const subdivision *s, const level *l, const limni_star *star,
+                              uint32_t row, int depth) {
+    const limn_row place = s->domain->rows[row];
+    const int step = LIMN_GRID_SIZE >> depth;
+    int di = 1, dj = 0;
+    for (uint32_t edge = 0; edge < s->domain->corner_count && place.edges; edge++) {
+        if (!(place.edges >> edge & 1)) continue;
+        const limn_row start = s->domain->rows[edge];
+        const limn_row end = s->domain->rows[(edge + 1) % s->domain->corner_count];
+        di = (end.i - start.i) / LIMN_GRID_SIZE;
+        dj = (end.j - start.j) / LIMN_GRID_SIZE;
+    }
+    const uint32_t next = s->row_at[place.i + step * di][place.j + step * dj];
+    uint32_t r = 0;
+    while (r + 1 < star->count && l->rows[star->ring[r]] != next)
+        r++;
+    return 2 * r + (place.edges == 0);
+}
+
+static limn_bake_status project_rows(const subdivision *s, const level *l, int depth,
+                                     const limni_rows *rows) {
+    const size_t table_size = (size_t)s->domain->row_counts[depth] * s->control_count;
+    limni_masks masks;
+    LIMNI_TRY(limni_masks_begin(s->context, &masks, &l->mesh, &l->sharpness, s->rules));
+    if (rows->tangents) memset(rows->tangents, 0, 2 * table_size * sizeof *rows->tangents);
+    for (uint32_t vertex = 0; vertex < l->mesh.control_count; vertex++) {
+        const uint32_t row = l->rows[vertex];
+        const size_t first = (size_t)row * s->control_count;
+        if (row == LIMNI_NONE) continue;
+        limit_row dst = {.position = rows->positions + first};
+        limni_masks_look(&masks, vertex, LIMNI_NONE);
+        if (rows->tangents && row >= s->domain->corner_count) {
+            dst.tangents[0] = rows->tangents + first;
+            dst.tangents[1] = rows->tangents + table_size + first;
+            dst.half_steps = tangent_start(s, l, &masks.star, row, depth);
         }
-        ring += star->count;
+        LIMNI_TRY(project_vertex(s, l, &masks, vertex, &dst));
     }
-    for (uint32_t row = 0; row < next->core_count; row++) {
-        next->edge_points[row] = ring;
-        ring += next->stars[row].count;
-    }
-}
-
-// ---- Sharpness
-
-static void sharpen_old_star(const limni_rules *rules, const limni_star *old, limni_star *star) {
-    star->sharpness = limni_sharpness_next(old->sharpness);
-    for (uint32_t r = 0; star->edges && r < star->count; r++) {
-        star->edges[r] = limni_star_next_edge(rules, old, r);
-        star->beyond[r] = limni_star_next_beyond(rules, old, r);
-    }
-}
-
-/// A new vertex has the halves of its edge, and no other sharp edge; their far ends, its parents,
-/// come before it.
-static void sharpen_new_star(const limni_rules *rules, const complex *c, uint32_t a, uint32_t r,
-                             const complex *next, limni_star *star) {
-    const uint32_t ends[2] = {a, c->stars[a].ring[r]};
-    const uint32_t places[2] = {r, opposite_place(c, a, r)};
-    memset(star->edges, 0, star->count * sizeof *star->edges);
-    memset(star->beyond, 0, star->count * sizeof *star->beyond);
-    for (int end = 0; end < 2; end++) {
-        const limni_star *const parent = &next->stars[ends[end]];
-        uint32_t q = 0;
-        while (star->ring[q] != ends[end])
-            q++;
-        star->edges[q] = parent->edges[places[end]];
-        limni_star_see(rules, parent, places[end], 1, &star->beyond[q]);
-    }
-}
-
-static void sharpen_stars(const subdivision *s, const complex *c, complex *next) {
-    uint32_t *pool = next->sharpness_pool;
-    for (uint32_t row = 0; row < next->core_count; row++) {
-        limni_star *const star = &next->stars[row];
-        if (pool) {
-            star->edges = pool;
-            star->beyond = pool + star->count;
-            pool += 2 * star->count;
-        }
-        if (row < c->core_count) {
-            sharpen_old_star(s->rules, &c->stars[row], star);
-        } else if (pool) {
-            sharpen_new_star(s->rules, c, s->domain->rows[row].parents[0],
-                             grid_edge_place(s, c, row), next, star);
-        }
-    }
-}
-
-// ---- Levels
-
-/// with_sharpness  of edges
-static limn_bake_status allocate_level(const subdivision *s, uint32_t core_count,
-                                       uint32_t vertex_count, size_t ring_total,
-                                       bool with_sharpness, complex *c) {
-    c->core_count = core_count;
-    c->vertex_count = vertex_count;
-    c->ring_pool = limni_allocate(s->context, 2 * ring_total, sizeof *c->ring_pool);
-    c->coefficients = limni_allocate(s->context, (size_t)vertex_count * s->control_count,
-                                     sizeof *c->coefficients);
-    c->sharpness_pool = NULL;
-    if (!c->ring_pool || !c->coefficients) return LIMN_BAKE_MEMORY;
-    if (!with_sharpness) return LIMN_BAKE_OK;
-    c->sharpness_pool = limni_allocate(s->context, 2 * ring_total, sizeof *c->sharpness_pool);
-    return c->sharpness_pool ? LIMN_BAKE_OK : LIMN_BAKE_MEMORY;
-}
-
-static void release_level(const subdivision *s, complex *c) {
-    limni_release(s->context, c->ring_pool);
-    limni_release(s->context, c->sharpness_pool);
-    limni_release(s->context, c->coefficients);
-}
-
-static limn_bake_status refine(const subdivision *s, complex *c, uint32_t next_core_count,
-                               complex *next) {
-    const uint32_t count = number_edge_points(s, c, next_core_count);
-    size_t ring_total = 6 * (size_t)next_core_count; // new vertices have at most 6 neighbours
-    for (uint32_t v = 0; v < c->core_count; v++)
-        ring_total += c->stars[v].count;
-    LIMNI_TRY(allocate_level(s, next_core_count, count, ring_total, c->sharpness_pool, next));
-
-    for (uint32_t v = 0; v < c->core_count; v++) {
-        limni_loop_vertex_mask(s->rules, &c->stars[v], s->weights);
-        apply_vertex_mask(s, c, v, s->weights, vertex_of(s, next, v));
-        for (uint32_t r = 0; r < c->stars[v].count; r++)
-            apply_edge_mask(s, c, v, r, vertex_of(s, next, c->edge_points[v][r]));
-    }
-    make_rings(s, c, next);
-    sharpen_stars(s, c, next);
+    limni_masks_end(s->context, &masks);
     return LIMN_BAKE_OK;
 }
 
 // ---- All levels
 
-/// A complex of the first `core_count` vertices with these stars, before any level. The
-/// coefficients are left to the caller.
-static limn_bake_status begin(const subdivision *s, const limni_star *stars, uint32_t core_count,
-                              uint32_t vertex_count, complex *c) {
-    size_t ring_total = 0;
-    for (uint32_t v = 0; v < core_count; v++)
-        ring_total += stars[v].count;
-    LIMNI_TRY(allocate_level(s, core_count, vertex_count, ring_total, stars[0].edges, c));
-
-    size_t first = 0;
-    for (uint32_t v = 0; v < core_count; v++) {
-        limni_star *const star = &c->stars[v];
-        *star = stars[v];
-        star->ring = memcpy(c->ring_pool + first, star->ring, star->count * sizeof *star->ring);
-        c->edge_points[v] = c->ring_pool + ring_total + first;
-        if (star->edges) {
-            const size_t size = star->count * sizeof *star->edges;
-            star->edges = memcpy(c->sharpness_pool + first, star->edges, size);
-            star->beyond = memcpy(c->sharpness_pool + ring_total + first, star->beyond, size);
-        }
-        first += star->count;
-    }
+/// The neighbourhood before any level: each vertex is a control point, its own or that of its twin.
+static limn_bake_status begin(const subdivision *s, const limni_neighbourhood *neighbourhood,
+                              level *l) {
+    *l = (level){.mesh = neighbourhood->mesh, .sharpness = neighbourhood->sharpness};
+    LIMNI_TRY(allocate_level(s, l));
+    const uint32_t *const twins = neighbourhood->twins;
+    for (uint32_t v = 0; v < s->control_count; v++)
+        coefficients_of(s, l, v)[twins ? twins[v] : v] = LIMNI_FIXED_ONE;
     return LIMN_BAKE_OK;
 }
 
-/// Each vertex is a control point, its own or that of its twin.
-static void set_identity(const subdivision *s, const uint32_t *twins, complex *c) {
-    memset(c->coefficients, 0, (size_t)c->vertex_count * s->control_count * sizeof(limni_fixed));
-    for (uint32_t v = 0; v < c->vertex_count; v++)
-        vertex_of(s, c, v)[twins ? twins[v] : v] = LIMNI_FIXED_ONE;
+/// Frees all but what belongs to the neighbourhood.
+static void end_first(const subdivision *s, level *l) {
+    limni_release(s->context, l->rows);
+    limni_release(s->context, l->inside);
+    limni_release(s->context, l->coefficients);
 }
 
-// ---- The limit
-
-/// Refines a complex of one core vertex until it is settled.
-static limn_bake_status settle(const subdivision *s, complex *c) {
-    while (!limni_star_is_settled(s->rules, &c->stars[0])) {
-        complex next;
-        LIMNI_TRY(refine(s, c, 1, &next));
-        release_level(s, c);
-        *c = next;
+static void copy_rows(const subdivision *s, const level *l, limni_fixed *positions) {
+    for (uint32_t v = 0; v < l->mesh.control_count; v++) {
+        if (l->rows[v] != LIMNI_NONE)
+            memcpy(positions + (size_t)l->rows[v] * s->control_count, coefficients_of(s, l, v),
+                   s->control_count * sizeof *positions);
     }
-    return LIMN_BAKE_OK;
-}
-
-/// One core vertex and its ring as a complex of their own, which is closed under subdivision,
-/// settled.
-static limn_bake_status settle_row(const subdivision *s, const complex *c, uint32_t row,
-                                   complex *settled) {
-    limni_star star = c->stars[row];
-    const uint32_t vertex_count = 1 + star.count;
-    star.ring = limni_allocate(s->context, star.count, sizeof *star.ring);
-    if (!star.ring) return LIMN_BAKE_MEMORY;
-    for (uint32_t r = 0; r < star.count; r++)
-        star.ring[r] = 1 + r;
-    LIMNI_TRY(begin(s, &star, 1, vertex_count, settled));
-    limni_release(s->context, star.ring);
-    const size_t size = s->control_count * sizeof(limni_fixed);
-    memcpy(vertex_of(s, settled, 0), vertex_of(s, c, row), size);
-    for (uint32_t r = 0; r < star.count; r++)
-        memcpy(vertex_of(s, settled, 1 + r), vertex_of(s, c, c->stars[row].ring[r]), size);
-    return settle(s, settled);
-}
-
-/// In half steps around a closed ring, where the tangents of a row start: on an edge, at the next
-/// row along it; inside, halfway between the directions of i and j, so that mirrored rows have
-/// mirrored tangents.
-static uint32_t tangent_start(const subdivision *s, const complex *c, uint32_t row, int depth) {
-    static const int directions[4][2] = {{1, 0}, {-1, 1}, {0, -1}, {1, 0}};
-    const limn_row place = s->domain->rows[row];
-    const int step = LIMN_GRID_SIZE >> depth;
-    uint32_t edge = 0; // or 3: none
-    while (edge < 3 && !(place.edges >> edge & 1))
-        edge++;
-    const uint32_t next =
-        grid_row(s, place.i + step * directions[edge][0], place.j + step * directions[edge][1]);
-    uint32_t r = 0;
-    while (r + 1 < c->stars[row].count && c->stars[row].ring[r] != next)
-        r++;
-    return 2 * r + (edge == 3);
-}
-
-/// Where the rows of a level go.
-typedef struct limit_rows {
-    limni_fixed *positions;
-    limni_fixed *tangents[2]; ///< NULL: not wanted
-} limit_rows;
-
-/// The limit of core vertex v, which is settled.
-///
-/// start  see limni_loop_tangent_masks()
-static void project(const subdivision *s, const complex *c, uint32_t v, uint32_t start,
-                    const limit_rows *dst) {
-    const limni_star *const star = &c->stars[v];
-    limni_fixed *const along = s->weights, *const across = along + s->weight_count;
-    if (dst->positions) {
-        limni_loop_limit_mask(s->rules, star, s->weights);
-        apply_vertex_mask(s, c, v, s->weights, dst->positions);
-    }
-    if (!dst->tangents[0]) return;
-    limni_loop_tangent_masks(s->rules, star, start, along, across);
-    apply_vertex_mask(s, c, v, along, dst->tangents[0]);
-    apply_vertex_mask(s, c, v, across, dst->tangents[1]);
-}
-
-static limn_bake_status project_row(const subdivision *s, const complex *c, uint32_t row,
-                                    uint32_t start, const limit_rows *dst) {
-    if (limni_star_is_settled(s->rules, &c->stars[row])) {
-        project(s, c, row, start, dst);
-        return LIMN_BAKE_OK;
-    }
-    complex settled;
-    LIMNI_TRY(settle_row(s, c, row, &settled));
-    project(s, &settled, 0, start, dst);
-    release_level(s, &settled);
-    return LIMN_BAKE_OK;
-}
-
-static limn_bake_status project_rows(const subdivision *s, const complex *c, int depth,
-                                     limni_fixed *positions, limni_fixed *tangents) {
-    const size_t table_size = (size_t)c->core_count * s->control_count;
-    if (tangents) memset(tangents, 0, 2 * table_size * sizeof *tangents);
-    for (uint32_t row = 0; row < c->core_count; row++) {
-        const bool corner = row < s->domain->corner_count;
-        const size_t first = (size_t)row * s->control_count;
-        limit_rows dst = {.positions = positions + first};
-        if (tangents && !corner) {
-            dst.tangents[0] = tangents + first;
-            dst.tangents[1] = tangents + table_size + first;
-        }
-        const uint32_t start = corner ? 0 : tangent_start(s, c, row, depth);
-        LIMNI_TRY(project_row(s, c, row, start, &dst));
-    }
-    return LIMN_BAKE_OK;
-}
-
-static limn_bake_status begin_subdivision(limni_context *context, const limni_rules *rules,
-                                          uint32_t control_count, subdivision *s) {
-    *s = (subdivision){
-        .context = context,
-        .rules = rules,
-        .domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE),
-        .control_count = control_count,
-        .weight_count = control_count + 7,
-        .sums = limni_allocate(context, control_count, sizeof *s->sums),
-    };
-    s->weights = limni_allocate(context, 2 * (size_t)s->weight_count, sizeof *s->weights);
-    return s->sums && s->weights ? LIMN_BAKE_OK : LIMN_BAKE_MEMORY;
-}
-
-static void end_subdivision(const subdivision *s) {
-    limni_release(s->context, s->sums);
-    limni_release(s->context, s->weights);
 }
 
 limn_bake_status limni_subdivide(limni_context *context, const limni_rules *rules,
                                  const limni_neighbourhood *neighbourhood, int depth,
-                                 limni_projection projection, limni_fixed *positions,
-                                 limni_fixed *tangents) {
-    const uint32_t control_count = neighbourhood->control_count;
+                                 limni_projection projection, const limni_rows *rows) {
     subdivision s;
-    complex level;
-    LIMNI_TRY(begin_subdivision(context, rules, control_count, &s));
-    LIMNI_TRY(begin(&s, neighbourhood->corners, 3, control_count, &level));
-    set_identity(&s, neighbourhood->twins, &level);
-    for (int n = 1; n <= depth; n++) {
-        complex next;
-        LIMNI_TRY(refine(&s, &level, s.domain->row_counts[n], &next));
-        release_level(&s, &level);
-        level = next;
-    }
+    level levels[LIMN_LEVEL_COUNT];
+    LIMNI_TRY(begin_subdivision(context, rules, neighbourhood, &s));
+    LIMNI_TRY(begin(&s, neighbourhood, &levels[0]));
+    for (uint32_t corner = 0; corner < s.domain->corner_count; corner++)
+        levels[0].rows[corner] = corner;
+    levels[0].inside[0] = true;
+    for (int n = 0; n < depth; n++)
+        LIMNI_TRY(refine(&s, &levels[n], &levels[n + 1]));
     if (projection == LIMNI_PROJECT_TO_LIMIT) {
-        LIMNI_TRY(project_rows(&s, &level, depth, positions, tangents));
+        LIMNI_TRY(project_rows(&s, &levels[depth], depth, rows));
     } else {
-        memcpy(positions, level.coefficients,
-               (size_t)level.core_count * control_count * sizeof *positions);
+        copy_rows(&s, &levels[depth], rows->positions);
     }
-    release_level(&s, &level);
+    for (int n = depth; n > 0; n--)
+        release_level(&s, &levels[n]);
+    end_first(&s, &levels[0]);
     end_subdivision(&s);
     return LIMN_BAKE_OK;
 }
@@ -474,16 +447,20 @@ limn_bake_status limni_subdivide(limni_context *context, const limni_rules *rule
 limn_bake_status limni_star_tangents(limni_context *context, const limni_rules *rules,
                                      const limni_star *star, uint32_t half_steps,
                                      limni_fixed *along, limni_fixed *across) {
+    limni_neighbourhood fan;
     subdivision s;
-    complex c;
-    LIMNI_TRY(begin_subdivision(context, rules, 1 + star->count, &s));
-    LIMNI_TRY(begin(&s, star, 1, 1 + star->count, &c));
-    for (uint32_t r = 0; r < star->count; r++)
-        c.stars[0].ring[r] = 1 + r;
-    set_identity(&s, NULL, &c);
-    LIMNI_TRY(settle(&s, &c));
-    project(&s, &c, 0, half_steps, &(limit_rows){.tangents = {along, across}});
-    release_level(&s, &c);
+    level l;
+    limni_masks masks;
+    LIMNI_TRY(limni_fan_begin(context, star, &fan));
+    LIMNI_TRY(begin_subdivision(context, rules, &fan, &s));
+    LIMNI_TRY(begin(&s, &fan, &l));
+    LIMNI_TRY(limni_masks_begin(context, &masks, &l.mesh, &l.sharpness, rules));
+    limni_masks_look(&masks, 0, LIMNI_NONE);
+    const limit_row dst = {.tangents = {along, across}, .half_steps = half_steps};
+    LIMNI_TRY(project_vertex(&s, &l, &masks, 0, &dst));
+    limni_masks_end(context, &masks);
+    end_first(&s, &l);
     end_subdivision(&s);
+    limni_neighbourhood_end(context, &fan);
     return LIMN_BAKE_OK;
 }

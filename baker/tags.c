@@ -148,7 +148,7 @@ static limn_bake_status tag_edges(limni_context *context, const limni_tags *tags
     if (tags->crease_count == 0) return LIMN_BAKE_OK;
     crease_table table;
     LIMNI_TRY(make_crease_table(context, tags, &table));
-    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
+    for (uint32_t h = 0; h < mesh->half_edge_count; h++) {
         const uint32_t found =
             *find_crease(&table, limni_half_edge_start(mesh, h), limni_half_edge_end(mesh, h));
         if (found != LIMNI_NONE) mesh->edge_sharpness[h] = tags->creases[found].sharpness;
@@ -187,7 +187,7 @@ limn_bake_status limni_tag_mesh(limni_context *context, const limni_source *sour
     mesh->boundary = tags->boundary;
     mesh->creasing = tags->creasing;
     mesh->edge_sharpness =
-        limni_allocate_zeroed(context, 3 * (size_t)mesh->face_count, sizeof *mesh->edge_sharpness);
+        limni_allocate_zeroed(context, mesh->half_edge_count, sizeof *mesh->edge_sharpness);
     mesh->vertex_sharpness =
         limni_allocate_zeroed(context, mesh->control_count, sizeof *mesh->vertex_sharpness);
     mesh->holes = limni_allocate_zeroed(context, mesh->face_count, sizeof *mesh->holes);

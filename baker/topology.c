@@ -37,13 +37,13 @@ static const char *file_of(const limni_mesh *mesh) {
 /// The half-edges that start at each control point: starts[c] to starts[c + 1] of `outgoing`.
 typedef struct incidence {
     uint32_t *starts;   ///< [control_count + 1]
-    uint32_t *outgoing; ///< [3 * face_count], ascending for each control point
+    uint32_t *outgoing; ///< [half_edge_count], ascending for each control point
     uint32_t *first_to; ///< [control_count] scratch, all LIMNI_NONE between uses
 } incidence;
 
 static limn_bake_status build_incidence(limni_context *context, const limni_mesh *mesh,
                                         incidence *in) {
-    const size_t half_edge_count = 3 * (size_t)mesh->face_count;
+    const size_t half_edge_count = mesh->half_edge_count;
     in->starts = limni_allocate_zeroed(context, (size_t)mesh->control_count + 2, sizeof(uint32_t));
     in->outgoing = limni_allocate(context, half_edge_count, sizeof(uint32_t));
     in->first_to = limni_allocate(context, mesh->control_count, sizeof(uint32_t));
@@ -69,7 +69,7 @@ static void release_incidence(limni_context *context, incidence *in) {
 /// How many faces use the edge a-b, in either direction.
 static uint32_t faces_of_edge(const limni_mesh *mesh, uint32_t a, uint32_t b) {
     uint32_t count = 0;
-    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
+    for (uint32_t h = 0; h < mesh->half_edge_count; h++) {
         const uint32_t start = limni_half_edge_start(mesh, h), end = limni_half_edge_end(mesh, h);
         count += (start == a && end == b) || (start == b && end == a);
     }
@@ -83,8 +83,8 @@ static limn_bake_status fail_edge(limni_context *context, const limni_mesh *mesh
     const uint32_t count = faces_of_edge(mesh, start, end);
     limni_control_place(mesh, start, a);
     limni_control_place(mesh, end, b);
-    limni_face_place(mesh, h / 3, face);
-    limni_face_place(mesh, other / 3, other_face);
+    limni_face_place(mesh, mesh->face_of[h], face);
+    limni_face_place(mesh, mesh->face_of[other], other_face);
     if (count > 2)
         return limni_fail(
             context, LIMN_BAKE_BAD_INPUT,
@@ -123,7 +123,7 @@ static void forget_directions(const limni_mesh *mesh, const incidence *in, uint3
 /// stay open.
 static void pair_incoming(limni_mesh *mesh, const incidence *in, uint32_t c, unsigned char *cut) {
     for (uint32_t o = in->starts[c]; o < in->starts[c + 1]; o++) {
-        const uint32_t incoming = limni_half_edge_previous(in->outgoing[o]);
+        const uint32_t incoming = limni_half_edge_previous(mesh, in->outgoing[o]);
         const uint32_t opposite = in->first_to[limni_half_edge_start(mesh, incoming)];
         if (opposite == LIMNI_NONE) continue;
         if (cut && (cut[opposite] || cut[incoming])) {
@@ -138,7 +138,7 @@ limn_bake_status limni_pair_half_edges(limni_context *context, limni_mesh *mesh,
                                        unsigned char *cut) {
     incidence in;
     LIMNI_TRY(build_incidence(context, mesh, &in));
-    memset(mesh->pairs, 0xff, 3 * (size_t)mesh->face_count * sizeof *mesh->pairs);
+    memset(mesh->pairs, 0xff, mesh->half_edge_count * sizeof *mesh->pairs);
     // All cuts must be known before the first pair is made.
     for (uint32_t c = 0; c < mesh->control_count && cut; c++) {
         check_directions(context, mesh, &in, c, cut);
@@ -168,7 +168,7 @@ void limni_sort_edges(limni_keyed_edge *edges, size_t count) {
 limni_fan limni_walk_fan(const limni_mesh *mesh, uint32_t h, unsigned char *seen) {
     limni_fan fan = {.first = h};
     while (mesh->pairs[fan.first] != LIMNI_NONE) {
-        fan.first = limni_half_edge_next(mesh->pairs[fan.first]);
+        fan.first = limni_half_edge_next(mesh, mesh->pairs[fan.first]);
         if (fan.first == h) break;
     }
     uint32_t turning = fan.first;
@@ -189,19 +189,19 @@ static limn_bake_status fail_vertex(limni_context *context, const limni_mesh *me
     return limni_fail(context, LIMN_BAKE_BAD_INPUT,
                       "%s: non-manifold %s: %s and %s meet there without sharing a chain of edges",
                       file_of(mesh), limni_control_place(mesh, c, vertex),
-                      limni_face_place(mesh, h / 3, face),
-                      limni_face_place(mesh, other / 3, other_face));
+                      limni_face_place(mesh, mesh->face_of[h], face),
+                      limni_face_place(mesh, mesh->face_of[other], other_face));
 }
 
 /// Of each control point, which must have no more than one.
 static limn_bake_status find_fans(limni_context *context, limni_mesh *mesh) {
-    unsigned char *const seen = limni_allocate_zeroed(context, 3 * (size_t)mesh->face_count, 1);
+    unsigned char *const seen = limni_allocate_zeroed(context, mesh->half_edge_count, 1);
     if (!seen) return LIMN_BAKE_MEMORY;
     for (uint32_t c = 0; c < mesh->control_count; c++) {
         mesh->first[c] = LIMNI_NONE;
         mesh->valences[c] = 0;
     }
-    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
+    for (uint32_t h = 0; h < mesh->half_edge_count; h++) {
         const uint32_t c = limni_half_edge_start(mesh, h);
         if (seen[h]) continue;
         if (mesh->first[c] != LIMNI_NONE) return fail_vertex(context, mesh, c, mesh->first[c], h);
@@ -227,7 +227,7 @@ static void note_unused(limni_context *context, const limni_mesh *mesh) {
 }
 
 limn_bake_status limni_connect(limni_context *context, limni_mesh *mesh) {
-    const size_t half_edge_count = 3 * (size_t)mesh->face_count;
+    const size_t half_edge_count = mesh->half_edge_count;
     mesh->pairs = limni_allocate(context, half_edge_count, sizeof *mesh->pairs);
     if (!mesh->pairs) return LIMN_BAKE_MEMORY;
     if (context->desc.non_manifold == LIMN_NON_MANIFOLD_SPLIT)
@@ -253,7 +253,7 @@ limn_bake_status limni_mesh_begin(limni_context *context, limni_source *source, 
     LIMNI_TRY(limni_check_tags(context, source));
     if (context->desc.repair & LIMN_REPAIR_WELD) LIMNI_TRY(limni_weld(context, source));
     LIMNI_TRY(limni_check_faces(context, source));
-    LIMNI_TRY(limni_triangulate(context, source, mesh));
+    LIMNI_TRY(limni_make_faces(context, source, mesh));
     return limni_tag_mesh(context, source, mesh);
 }
 

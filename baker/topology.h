@@ -7,7 +7,7 @@
 
 /// Sets mesh->pairs. An edge is not manifold if two faces run along it in the same direction.
 ///
-/// cut  [3 * face_count], zero; out: 1 for the half-edges of edges that are not manifold, which stay
+/// cut  [half_edge_count], zero; out: 1 for the half-edges of edges that are not manifold, which stay
 ///      open. NULL: such an edge is an error
 limn_bake_status limni_pair_half_edges(limni_context *context, limni_mesh *mesh,
                                        unsigned char *cut);

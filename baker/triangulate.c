@@ -5,8 +5,9 @@
  * diagonal. A diagonal that is an edge of the mesh already would make it non-manifold, and is
  * avoided.
  */
+#include "triangulate.h"
+
 #include "hash.h"
-#include "mesh.h"
 
 #include <math.h>
 #include <string.h>
@@ -144,10 +145,10 @@ static uint32_t best_corner(const polygon *p, const edge_set *edges) {
 }
 
 static void emit(limni_mesh *mesh, uint32_t source_face, uint32_t a, uint32_t b, uint32_t c) {
-    uint32_t *const face = mesh->faces[mesh->face_count];
-    face[0] = a;
-    face[1] = b;
-    face[2] = c;
+    uint32_t *const corners = mesh->corners + 3 * (size_t)mesh->face_count;
+    corners[0] = a;
+    corners[1] = b;
+    corners[2] = c;
     mesh->polygons[mesh->face_count++] = source_face;
 }
 
@@ -180,10 +181,11 @@ static limn_bake_status make_edge_set(limni_context *context, const limni_source
     return LIMN_BAKE_OK;
 }
 
-static limn_bake_status cut_faces(limni_context *context, const limni_source *source,
-                                  limni_mesh *mesh, bool only_triangles) {
+limn_bake_status limni_triangulate(limni_context *context, const limni_source *source,
+                                   limni_mesh *mesh) {
     edge_set edges = {0};
-    if (!only_triangles) LIMNI_TRY(make_edge_set(context, source, &edges));
+    if (source->face_offsets[source->face_count] > 3 * (uint64_t)source->face_count)
+        LIMNI_TRY(make_edge_set(context, source, &edges));
     uint32_t quads = 0, larger = 0;
     for (uint32_t face = 0; face < source->face_count; face++) {
         const uint32_t begin = source->face_offsets[face];
@@ -200,25 +202,4 @@ static limn_bake_status cut_faces(limni_context *context, const limni_source *so
                    source->path ? source->path : source->name, quads, larger, source->face_count,
                    mesh->face_count);
     return LIMN_BAKE_OK;
-}
-
-limn_bake_status limni_triangulate(limni_context *context, const limni_source *source,
-                                   limni_mesh *mesh) {
-    const uint64_t corners = source->face_offsets[source->face_count];
-    const uint64_t triangles = corners - 2 * (uint64_t)source->face_count;
-    *mesh = (limni_mesh){
-        .name = source->name,
-        .path = source->path,
-        .control_numbers = source->position_numbers,
-        .control_lines = source->position_lines,
-        .face_lines = source->face_lines,
-        .face_numbers = source->face_numbers,
-        .index_base = source->index_base,
-        .control_count = source->position_count,
-        .controls = source->positions,
-        .faces = limni_allocate(context, (size_t)triangles, sizeof *mesh->faces),
-        .polygons = limni_allocate(context, (size_t)triangles, sizeof *mesh->polygons),
-    };
-    if (!mesh->faces || !mesh->polygons) return LIMN_BAKE_MEMORY;
-    return cut_faces(context, source, mesh, triangles == source->face_count);
 }

@@ -51,24 +51,30 @@ static void list_mesh(const limni_patches *mesh, uint32_t m, part *parts, uint32
         {LIMN_CHUNK_FACES, m, mesh->faces, record->patch_count * sizeof *mesh->faces},
         {LIMN_CHUNK_INDICES, m, mesh->indices, record->index_count * sizeof *mesh->indices},
         {LIMN_CHUNK_SLOTS, m, mesh->slots, mesh->slots_size},
-        {LIMN_CHUNK_ERRORS, m, mesh->errors, 3 * record->patch_count * sizeof *mesh->errors},
+        {LIMN_CHUNK_ERRORS, m, mesh->errors,
+         (uint64_t)limni_corner_count(mesh) * record->patch_count * sizeof *mesh->errors},
     };
     memcpy(parts + *count, of_mesh, sizeof of_mesh);
     *count += CHUNKS_OF_MESH;
     add_part(parts, count, LIMN_CHUNK_CREASES, m, mesh->creases, record->patch_count);
-    if (!mesh->stencils) return;
+    if (!mesh->stencils.offsets) return;
     const uint32_t point_count = record->point_count - record->control_count;
-    add_part(parts, count, LIMN_CHUNK_STENCILS, m, mesh->stencils,
-             (1 + (uint64_t)point_count) * sizeof *mesh->stencils);
-    add_part(parts, count, LIMN_CHUNK_TERMS, m, mesh->terms,
-             mesh->stencils[point_count] * sizeof *mesh->terms);
+    add_part(parts, count, LIMN_CHUNK_STENCILS, m, mesh->stencils.offsets,
+             (1 + (uint64_t)point_count) * sizeof(uint32_t));
+    add_part(parts, count, LIMN_CHUNK_TERMS, m, mesh->stencils.terms,
+             mesh->stencils.offsets[point_count] * sizeof(limn_file_term));
+}
+
+/// The vertices that have normals.
+static uint32_t base_count_of(const limn_file_mesh *record) {
+    return record->divided_count ? record->divided_count : record->control_count;
 }
 
 static void list_normals(const limni_patches *mesh, uint32_t m, part *parts, uint32_t *count) {
     const limni_control_normals *const normals = &mesh->normals;
     const part of_normals[CHUNKS_OF_NORMALS] = {
         {LIMN_CHUNK_NORMALS, m, normals->records,
-         mesh->record.control_count * sizeof *normals->records},
+         base_count_of(&mesh->record) * sizeof *normals->records},
         {LIMN_CHUNK_RINGS, m, normals->ring, normals->ring_size * sizeof *normals->ring},
         {LIMN_CHUNK_WEIGHTS, m, normals->weights, normals->weight_count * sizeof *normals->weights},
     };
@@ -77,7 +83,8 @@ static void list_normals(const limni_patches *mesh, uint32_t m, part *parts, uin
     add_part(parts, count, LIMN_CHUNK_SIDES, m, normals->sides,
              normals->side_count * sizeof *normals->sides);
     add_part(parts, count, LIMN_CHUNK_CORNERS, m, mesh->corner_normals,
-             3 * mesh->record.patch_count * sizeof *mesh->corner_normals);
+             (uint64_t)limni_corner_count(mesh) * mesh->record.patch_count *
+                 sizeof *mesh->corner_normals);
 }
 
 static uint64_t align(uint64_t offset) {
@@ -102,7 +109,8 @@ static limn_bake_status make_records(limni_context *context, shared *s) {
         uint64_t *const size = class->parts ? &s->columns_size : &s->tables_size;
         s->class_records[c] = limni_class_record(class);
         s->class_records[c].table_offset = *size;
-        *size += class->parts ? limni_class_parts_size(class) : limni_class_table_size(class);
+        *size +=
+            class->parts ? limni_class_parts_size(class) : align(limni_class_table_size(class));
     }
     for (uint32_t p = 0; p < s->pieces->count; p++) {
         s->piece_records[p] = limni_piece_record(&s->pieces->items[p]);
@@ -214,7 +222,7 @@ static void describe_isolation(const limni_rules *rules, const limni_patches *me
     uint64_t totals[2] = {0};
     uint32_t count = 0;
     for (uint32_t m = 0; m < mesh_count; m++) {
-        count += meshes[m].stencils != NULL;
+        count += meshes[m].rules.isolate == LIMN_ISOLATE_ALWAYS;
         totals[0] += meshes[m].footprints[0].total;
         totals[1] += meshes[m].footprints[1].total;
     }
@@ -230,6 +238,9 @@ static void describe_isolation(const limni_rules *rules, const limni_patches *me
 /// How the file was baked. Nothing here depends on the host or on the time.
 static void describe(const limni_rules *rules, const limni_patches *meshes, uint32_t mesh_count,
                      char *text, size_t size) {
+    static const char *const scheme_names[] = {[LIMN_SCHEME_LOOP] = "loop",
+                                               [LIMN_SCHEME_CATMARK] = "catmark",
+                                               [LIMN_SCHEME_NONE] = "none"};
     const char *const creasing = creasing_name(meshes, mesh_count);
     const char *const normals = rules->normals == LIMN_NORMALS_EXACT ? "exact" : "none";
     char creases[64] = "";
@@ -240,8 +251,7 @@ static void describe(const limni_rules *rules, const limni_patches *meshes, uint
     char isolate[96];
     describe_isolation(rules, meshes, mesh_count, isolate, sizeof isolate);
     snprintf(text, size, "scheme=%s weights=%s boundary=%s%s normals=%s%s",
-             rules->scheme == LIMN_SCHEME_NONE ? "none" : "loop",
-             rules->weights == LIMN_WEIGHTS_WARREN ? "warren" : "loop",
+             scheme_names[rules->scheme], rules->weights == LIMN_WEIGHTS_WARREN ? "warren" : "loop",
              boundary_name(meshes, mesh_count), creases, normals, isolate);
 }
 

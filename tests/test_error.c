@@ -80,7 +80,7 @@ static bool is_sharp_vertex(const limni_mesh *base, uint32_t control) {
 /// Whether anything is sharp for some levels only, which the rules below do not know.
 static bool has_semi_sharpness(const limni_mesh *base) {
     bool any = false;
-    for (uint32_t h = 0; h < 3 * base->face_count; h++)
+    for (uint32_t h = 0; h < base->half_edge_count; h++)
         any |= base->edge_sharpness[h] > 0 && !is_sharp_edge(base, h);
     for (uint32_t c = 0; c < base->control_count; c++)
         any |= base->vertex_sharpness[c] > 0 && !is_sharp_vertex(base, c);
@@ -121,7 +121,7 @@ static void pull(const limni_mesh *base, uint32_t h, const edges_around *around,
 /// Loop's masks for the vertices: their neighbours, or on a crease those along it.
 static void move_vertices(const limni_mesh *base, float (*points)[3]) {
     edges_around *const around = calloc(base->control_count, sizeof *around);
-    for (uint32_t h = 0; h < 3 * base->face_count; h++) {
+    for (uint32_t h = 0; h < base->half_edge_count; h++) {
         const uint32_t ends[2] = {limni_half_edge_start(base, h), limni_half_edge_end(base, h)};
         for (int k = 0; k < 2 && edge_of(base, h) == h; k++) {
             around[ends[k]].count++;
@@ -129,7 +129,7 @@ static void move_vertices(const limni_mesh *base, float (*points)[3]) {
         }
     }
     memcpy(points, base->controls, base->control_count * sizeof *points);
-    for (uint32_t h = 0; h < 3 * base->face_count; h++) {
+    for (uint32_t h = 0; h < base->half_edge_count; h++) {
         if (edge_of(base, h) == h) pull(base, h, around, points);
     }
     free(around);
@@ -141,7 +141,7 @@ static void place_middle(const limni_mesh *base, uint32_t h, float *point) {
     add(point, sharp ? 0.5f : 0.375f, base->controls[limni_half_edge_start(base, h)]);
     add(point, sharp ? 0.5f : 0.375f, base->controls[limni_half_edge_end(base, h)]);
     for (int k = 0; k < 2 && !sharp; k++) {
-        const uint32_t opposite = limni_half_edge_previous(sides[k]);
+        const uint32_t opposite = limni_half_edge_previous(base, sides[k]);
         add(point, 0.125f, base->controls[limni_half_edge_start(base, opposite)]);
     }
 }
@@ -152,7 +152,7 @@ static void split_face(const limni_mesh *base, uint32_t face, uint32_t children[
     for (uint32_t c = 0; c < 3; c++)
         middles[c] = base->control_count + edge_of(base, 3 * face + c);
     for (uint32_t c = 0; c < 3; c++) {
-        children[c][c] = base->faces[face][c];
+        children[c][c] = base->corners[3 * face + c];
         children[c][(c + 1) % 3] = middles[c];
         children[c][(c + 2) % 3] = middles[(c + 2) % 3];
         children[3][c] = middles[(c + 1) % 3];
@@ -169,7 +169,7 @@ typedef struct finer {
 } finer;
 
 static finer subdivide(const limni_mesh *base) {
-    const size_t edge_room = 3 * (size_t)base->face_count;
+    const size_t edge_room = base->half_edge_count;
     finer made = {.points = calloc(base->control_count + edge_room, sizeof *made.points),
                   .faces = malloc(base->face_count * sizeof *made.faces),
                   .creases = malloc(2 * edge_room * sizeof *made.creases),
@@ -204,7 +204,7 @@ static limn_bake_status bake_fine(subject *s) {
     const finer made = subdivide(&s->base);
     s->fine_baker = limn_baker_create(NULL);
     const limn_bake_mesh mesh = {.positions = made.points[0],
-                                 .position_count = s->base.control_count + 3 * s->base.face_count,
+                                 .position_count = s->base.control_count + s->base.half_edge_count,
                                  .face_count = CHILDREN * s->base.face_count,
                                  .face_indices = made.faces[0][0],
                                  .crease_edges = made.creases[0],
@@ -317,7 +317,7 @@ static uint16_t error_at(const subject *s, uint32_t h) {
 /// Both patches at an edge have the same number.
 static void check_sides(const subject *s) {
     bool same = true;
-    for (uint32_t h = 0; h < 3 * s->base.face_count; h++) {
+    for (uint32_t h = 0; h < s->base.half_edge_count; h++) {
         if (s->patch_of_face[h / 3] == LIMNI_NONE || patch_beyond(s, h) == LIMNI_NONE) continue;
         same = same && error_at(s, h) == error_at(s, s->base.pairs[h]);
     }

@@ -65,12 +65,12 @@ static void test_smooth_masks(void) {
         const double b[2] = {(40 - root * root) / 64, n == 3 ? 9.0 / 16 : 3.0 / 8};
         for (int choice = 0; choice < 2; choice++) {
             const limni_rules rules = {.weights = (limn_weights)choice};
-            limni_loop_vertex_mask(&rules, &star, weights);
+            limni_scheme_loop.vertex_mask(&rules, &star, weights);
             CHECK_NEAR(value(weights[0]), 1 - b[choice], 1e-15);
             CHECK_NEAR(value(weights[n]), b[choice] / n, 1e-15);
             check_sums_to_one(n);
             const double centre = 3 * n / (8 * b[choice]);
-            limni_loop_limit_mask(&rules, &star, weights);
+            limni_scheme_loop.limit_mask(&rules, &star, weights);
             CHECK_NEAR(value(weights[0]), centre / (centre + n), 1e-15);
             CHECK_NEAR(value(weights[1]), 1 / (centre + n), 1e-15);
             check_sums_to_one(n);
@@ -82,17 +82,17 @@ static void test_boundary_masks(void) {
     const limni_rules rules = {0};
     limni_star star = {.count = 4};
     CHECK_EQUAL(limni_star_feature(&rules, &star).rule, LIMNI_VERTEX_CREASE);
-    limni_loop_vertex_mask(&rules, &star, weights);
+    limni_scheme_loop.vertex_mask(&rules, &star, weights);
     CHECK(value(weights[0]) == 0.75 && value(weights[1]) == 0.125 && value(weights[4]) == 0.125);
     CHECK(weights[2] == 0 && weights[3] == 0);
-    limni_loop_limit_mask(&rules, &star, weights);
+    limni_scheme_loop.limit_mask(&rules, &star, weights);
     CHECK_NEAR(value(weights[0]), 2.0 / 3, 1e-17);
     CHECK_NEAR(value(weights[4]), 1.0 / 6, 1e-17);
     check_sums_to_one(4);
 
     star = (limni_star){.count = 2, .sharpness = LIMNI_SHARPNESS_INFINITE};
     CHECK_EQUAL(limni_star_feature(&rules, &star).rule, LIMNI_VERTEX_CORNER);
-    limni_loop_limit_mask(&rules, &star, weights);
+    limni_scheme_loop.limit_mask(&rules, &star, weights);
     CHECK(weights[0] == LIMNI_FIXED_ONE && weights[1] == 0 && weights[2] == 0);
 }
 
@@ -101,17 +101,17 @@ static void step(const limni_rules *rules, const limni_star *star, const limni_f
                  double *stepped) {
     static limni_fixed vertex[600];
     const uint32_t n = star->count;
-    limni_loop_vertex_mask(rules, star, vertex);
+    limni_scheme_loop.vertex_mask(rules, star, vertex);
     for (uint32_t w = 0; w <= n; w++)
         stepped[w] = value(mask[0]) * value(vertex[w]);
     for (uint32_t r = 0; r < n; r++) { // the new vertex between the vertex and ring vertex r
         const limni_edge_feature feature = limni_star_edge_feature(rules, star, r);
-        const limni_edge_mask edge = limni_loop_edge_mask(&feature);
+        const limni_edge_mask edge = limni_scheme_loop.edge_mask(&feature);
         const double weight = value(mask[1 + r]);
         stepped[0] += weight * value(edge.ends[0]);
         stepped[1 + r] += weight * value(edge.ends[1]);
-        stepped[1 + (r + 1) % n] += weight * value(edge.opposite);
-        stepped[1 + (r + n - 1) % n] += weight * value(edge.opposite);
+        stepped[1 + (r + 1) % n] += weight * value(edge.beside);
+        stepped[1 + (r + n - 1) % n] += weight * value(edge.beside);
     }
 }
 
@@ -136,7 +136,7 @@ static void check_is_eigenvector(const limni_rules *rules, const limni_star *sta
 /// The limit is the same before and after a step.
 static void check_limit(const limni_rules *rules, const limni_star *star) {
     static double stepped[600];
-    limni_loop_limit_mask(rules, star, weights);
+    limni_scheme_loop.limit_mask(rules, star, weights);
     check_sums_to_one(star->count);
     step(rules, star, weights, stepped);
     for (uint32_t w = 0; w <= star->count; w++)
@@ -174,8 +174,8 @@ static void test_crease_tangents(void) {
     for (int side = 0; side < 2; side++) {
         limni_fixed along[2][10], across[2][10];
         const limni_star boundary = {.count = counts[side]};
-        limni_loop_tangent_masks(&rules, &star, 2 * starts[side], along[0], across[0]);
-        limni_loop_tangent_masks(&rules, &boundary, 0, along[1], across[1]);
+        limni_scheme_loop.tangent_masks(&rules, &star, 2 * starts[side], along[0], across[0]);
+        limni_scheme_loop.tangent_masks(&rules, &boundary, 0, along[1], across[1]);
         CHECK_EQUAL(across[0][0], across[1][0]);
         for (uint32_t r = 0; r < counts[side]; r++) {
             const uint32_t place = 1 + (starts[side] + r) % 9;
@@ -197,7 +197,7 @@ static void test_transitions(void) {
     CHECK(t.now.rule == LIMNI_VERTEX_CREASE && t.next.rule == LIMNI_VERTEX_SMOOTH);
     CHECK(value(t.weight) == 0.25);
     CHECK(value(limni_star_edge_feature(&rules, &star, 3).weight) == 0.25);
-    limni_loop_vertex_mask(&rules, &star, weights);
+    limni_scheme_loop.vertex_mask(&rules, &star, weights);
     CHECK_NEAR(value(weights[1]), 0.25 / 8 + 0.75 / 16, 1e-17);
     CHECK_NEAR(value(weights[2]), 0.75 / 16, 1e-17);
     check_sums_to_one(6);
@@ -224,12 +224,12 @@ static void test_tangent_masks(void) {
     const limni_rules rules = {0};
     for (uint32_t n = 2; n <= 500; n++) {
         const limni_star boundary = {.count = n};
-        limni_loop_tangent_masks(&rules, &boundary, 0, along, across);
+        limni_scheme_loop.tangent_masks(&rules, &boundary, 0, along, across);
         check_is_eigenvector(&rules, &boundary, along);
         check_is_eigenvector(&rules, &boundary, across);
         if (n == 2) continue; // two faces back to back have no tangent plane
         const limni_star inside = {.closed = true, .count = n};
-        limni_loop_tangent_masks(&rules, &inside, 0, along, across);
+        limni_scheme_loop.tangent_masks(&rules, &inside, 0, along, across);
         check_is_eigenvector(&rules, &inside, along);
         check_is_eigenvector(&rules, &inside, across);
     }
@@ -261,7 +261,7 @@ static void test_lomont_masks(void) {
             check_limit(&rules, &star);
             CHECK_NEAR(value(weights[1]), !closed && n == 4 ? 1.0 / 6 : 1.0 / 5, 1e-17);
             for (uint32_t side = 0; side <= (uint32_t)closed; side++) {
-                limni_loop_tangent_masks(&rules, &star, 2 * side * (n - 1), along, across);
+                limni_scheme_loop.tangent_masks(&rules, &star, 2 * side * (n - 1), along, across);
                 check_is_eigenvector(&rules, &star, along);
                 check_is_eigenvector(&rules, &star, across);
             }
@@ -303,10 +303,10 @@ static void test_lomont_edges(void) {
         limni_star_see(&rules, &far_end, 0, 1, &beyond[0]);
         edges[0] = far_edges[0];
         const limni_edge_feature feature = limni_star_edge_feature(&rules, &star, 0);
-        const limni_edge_mask mask = limni_loop_edge_mask(&feature);
+        const limni_edge_mask mask = limni_scheme_loop.edge_mask(&feature);
         CHECK_NEAR(value(mask.ends[0]), cases[c].ends[0], 1e-17);
         CHECK_NEAR(value(mask.ends[1]), cases[c].ends[1], 1e-17);
-        CHECK_NEAR(value(mask.opposite), cases[c].opposite, 1e-17);
+        CHECK_NEAR(value(mask.beside), cases[c].opposite, 1e-17);
     }
 }
 
@@ -315,8 +315,8 @@ static void test_tangents_turn(void) {
     limni_fixed along[2][7], across[2][7];
     const limni_rules rules = {0};
     const limni_star star = {.closed = true, .count = 6};
-    limni_loop_tangent_masks(&rules, &star, 2, along[0], across[0]);
-    limni_loop_tangent_masks(&rules, &star, 8, along[1], across[1]);
+    limni_scheme_loop.tangent_masks(&rules, &star, 2, along[0], across[0]);
+    limni_scheme_loop.tangent_masks(&rules, &star, 8, along[1], across[1]);
     for (int w = 0; w < 7; w++)
         CHECK(along[0][w] == -along[1][w] && across[0][w] == -across[1][w]);
     CHECK(along[0][1 + 1] == LIMNI_FIXED_ONE && across[0][1 + 1] == 0);

@@ -548,9 +548,9 @@ static void test_quads(void) {
 
 /// Twice the area of a triangle in the plane of two axes.
 static double area_of(const limni_mesh *mesh, uint32_t face, int u, int v) {
-    const float *const a = mesh->controls[mesh->faces[face][0]];
-    const float *const b = mesh->controls[mesh->faces[face][1]];
-    const float *const c = mesh->controls[mesh->faces[face][2]];
+    const float *const a = mesh->controls[mesh->corners[3 * face + 0]];
+    const float *const b = mesh->controls[mesh->corners[3 * face + 1]];
+    const float *const c = mesh->controls[mesh->corners[3 * face + 2]];
     return ((double)b[u] - a[u]) * ((double)c[v] - a[v]) -
            ((double)b[v] - a[v]) * ((double)c[u] - a[u]);
 }
@@ -980,11 +980,13 @@ static void test_disagreement(void) {
     limni_classes classes = {0}, pieces = {0};
     limni_patches patches;
     limni_mesh mesh;
+    limni_base base;
     CHECK_EQUAL(limni_mesh_build(&context, &source, &mesh), LIMN_BAKE_OK);
-    CHECK_EQUAL(limni_patches_build(&context, &mesh, &rules, &classes, &pieces, &patches),
+    CHECK_EQUAL(limni_base_begin(&context, &mesh, &rules, &base), LIMN_BAKE_OK);
+    CHECK_EQUAL(limni_patches_build(&context, &base, &rules, &classes, &pieces, &patches),
                 LIMN_BAKE_OK);
     classes.items[0].prints[1].along[0].positions ^= 1;
-    CHECK_EQUAL(limni_patches_build(&context, &mesh, &rules, &classes, &pieces, &patches),
+    CHECK_EQUAL(limni_patches_build(&context, &base, &rules, &classes, &pieces, &patches),
                 LIMN_BAKE_INTERNAL);
     CHECK_CONTAINS(context.error, "disagree on their common edge");
     limni_release_all(&context);

@@ -91,7 +91,7 @@ static uint64_t count_differences(const subject *s, uint32_t level, const vertex
     const uint32_t row_count = s->baked.domain->row_counts[level];
     const uint32_t step = LIMN_GRID_SIZE >> level;
     uint64_t differences = 0;
-    for (uint32_t h = 0; h < 3 * s->mesh.face_count; h++) {
+    for (uint32_t h = 0; h < s->mesh.half_edge_count; h++) {
         const uint32_t pair = s->mesh.pairs[h];
         if (pair == LIMNI_NONE || pair < h) continue;
         if (s->patches[h / 3] == LIMNI_NONE || s->patches[pair / 3] == LIMNI_NONE) continue;
@@ -125,11 +125,11 @@ static meeting meet(const limni_mesh *mesh, uint32_t a, uint32_t b) {
 /// sheets.
 static uint64_t count_sheet_differences(const subject *s, uint32_t level, const vertex *vertices) {
     const uint32_t row_count = s->baked.domain->row_counts[level];
-    uint32_t *const edges = malloc(3 * (size_t)s->mesh.face_count * sizeof *edges);
+    uint32_t *const edges = malloc((size_t)s->mesh.half_edge_count * sizeof *edges);
     uint32_t count = 0;
     const uint32_t step = LIMN_GRID_SIZE >> level;
     uint64_t differences = 0;
-    for (uint32_t h = 0; h < 3 * s->mesh.face_count && s->mesh.origins; h++) {
+    for (uint32_t h = 0; h < s->mesh.half_edge_count && s->mesh.origins; h++) {
         if (s->patches[h / 3] != LIMNI_NONE &&
             limni_is_split(&s->mesh, limni_half_edge_start(&s->mesh, h)) &&
             limni_is_split(&s->mesh, limni_half_edge_end(&s->mesh, h)))
@@ -162,7 +162,7 @@ static uint64_t count_corner_differences(const subject *s, uint32_t level, const
     const uint32_t origin_count = s->mesh.origins[s->mesh.control_count - 1] + 1;
     const vertex **const places = calloc(origin_count, sizeof *places);
     uint64_t differences = 0;
-    for (uint32_t h = 0; h < 3 * s->mesh.face_count; h++) {
+    for (uint32_t h = 0; h < s->mesh.half_edge_count; h++) {
         if (s->patches[h / 3] == LIMNI_NONE) continue;
         const vertex *const here =
             &vertices[(size_t)s->patches[h / 3] * row_count + rows_along(s, h)[0]];
@@ -380,7 +380,7 @@ static void test_tagged(bool chaikin) {
 
 /// All sheets have the error of the edge, and with it its level.
 static void check_errors(const subject *s) {
-    for (uint32_t a = 0; a < 3 * s->mesh.face_count && s->mesh.origins; a++) {
+    for (uint32_t a = 0; a < s->mesh.half_edge_count && s->mesh.origins; a++) {
         for (uint32_t b = 0; b < a; b++) {
             const uint32_t p = s->patches[a / 3], q = s->patches[b / 3];
             if (meet(&s->mesh, a, b) == APART || p == LIMNI_NONE || q == LIMNI_NONE) continue;

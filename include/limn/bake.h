@@ -30,8 +30,10 @@ typedef enum limn_bake_status {
 
 /// What the surface is that a mesh stands for.
 typedef enum limn_scheme {
-    LIMN_SCHEME_LOOP, ///< Loop subdivision
-    LIMN_SCHEME_NONE ///< the flat triangles themselves, for props that go through the same pipeline
+    LIMN_SCHEME_LOOP,    ///< Loop subdivision, of triangles: other polygons are cut
+    LIMN_SCHEME_CATMARK, ///< Catmull-Clark subdivision, of any polygons
+    LIMN_SCHEME_NONE ///< the faces themselves, for props that go through the same pipeline: flat
+                     ///< triangles, or where there are other polygons, bilinear
 } limn_scheme;
 
 /// Vertex weights of Loop subdivision.

@@ -220,7 +220,9 @@ typedef struct limn_file_mesh {
     float origin[3];      ///< see limn_mesh.origin
     uint32_t hole_count;  ///< base faces without a patch
     uint32_t point_count; ///< control_count; in isolated meshes with the points of level 1 behind
-    uint32_t reserved;
+    uint32_t
+        divided_count; ///< 0, or the vertices of the mesh that it was divided into: the first of
+                       ///< the points behind the control points
 } limn_file_mesh;
 
 /// Consecutive patches of one class. Patch p of the run has its control indices, by slot, at

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT */
+#include "base.h"
+
+#include <string.h>
+
+void limni_place_points(const limni_stencils *stencils, float (*points)[3], uint32_t first,
+                        uint32_t count) {
+    const limn_mesh view = {.control_count = first,
+                            .point_count = first + count,
+                            .stencils = stencils->offsets,
+                            .terms = stencils->terms,
+                            .kernels = limn_kernels_select(LIMN_ISA_ALL, LIMN_FAMILY_REPRODUCIBLE)};
+    limn_mesh_refine(&view, points[0]);
+}
+
+static bool is_made_of_patches(const limni_mesh *mesh) {
+    const uint32_t size = limn_domain_get(mesh->domain)->corner_count;
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        if (limni_face_size(mesh, face) != size) return false;
+    }
+    return true;
+}
+
+static limn_bake_status divide(limni_context *context, const limni_rules *rules, limni_base *base) {
+    const limni_mesh *const source = base->source;
+    limni_mesh *const made = &base->refined.mesh;
+    LIMNI_TRY(limni_refine(context, source, &base->source_sharpness, rules, &base->refined));
+    LIMNI_TRY(limni_make_stencils(context, source, &base->source_sharpness, rules, &base->refined,
+                                  &base->stencils));
+    const uint32_t count = source->control_count;
+    float(*const points)[3] =
+        limni_allocate(context, (size_t)count + made->control_count, sizeof *points);
+    made->controls = limni_allocate(context, made->control_count, sizeof *made->controls);
+    if (!points || !made->controls) return LIMN_BAKE_MEMORY;
+    memcpy(points, source->controls, count * sizeof *points);
+    limni_place_points(&base->stencils, points, count, made->control_count);
+    memcpy(made->controls, points + count, made->control_count * sizeof *points);
+    limni_release(context, points);
+    return LIMN_BAKE_OK;
+}
+
+limn_bake_status limni_base_begin(limni_context *context, const limni_mesh *source,
+                                  const limni_rules *rules, limni_base *base) {
+    *base = (limni_base){.source = source, .divided = !is_made_of_patches(source)};
+    LIMNI_TRY(limni_mesh_sharpness_begin(context, source, rules, &base->source_sharpness));
+    base->mesh = source;
+    base->sharpness = &base->source_sharpness;
+    if (!base->divided) return LIMN_BAKE_OK;
+    LIMNI_TRY(divide(context, rules, base));
+    base->first = source->control_count;
+    base->mesh = &base->refined.mesh;
+    base->sharpness = &base->refined.sharpness;
+    return LIMN_BAKE_OK;
+}
+
+void limni_base_end(limni_context *context, limni_base *base) {
+    limni_mesh_sharpness_end(context, &base->source_sharpness);
+    if (!base->divided) return;
+    limni_release(context, base->refined.mesh.controls);
+    limni_refined_end(context, &base->refined);
+    limni_release(context, base->stencils.offsets);
+    limni_release(context, base->stencils.terms);
+}

@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: MIT */
+#include "masks.h"
+
+// ---- Memory
+
+/// The most terms that a point can have.
+static size_t find_term_max(const limni_mesh *mesh) {
+    size_t most = 0;
+    for (uint32_t c = 0; c < mesh->control_count; c++) {
+        uint32_t h = mesh->first[c];
+        if (h == LIMNI_NONE) continue;
+        size_t count = 1 + (size_t)mesh->valences[c];
+        do {
+            const size_t size = limni_face_size(mesh, mesh->face_of[h]);
+            most = 2 + 2 * size > most ? 2 + 2 * size : most; // an edge, as if both were as large
+            count += size;
+            h = limni_half_edge_turn(mesh, h);
+        } while (h != LIMNI_NONE && h != mesh->first[c]);
+        most = count > most ? count : most;
+    }
+    for (uint32_t f = 0; f < mesh->face_count;
+         f++) { // the other side may be larger, or a face alone
+        const size_t size = limni_face_size(mesh, f);
+        most = 2 + 2 * size > most ? 2 + 2 * size : most;
+    }
+    return most;
+}
+
+limn_bake_status limni_masks_begin(limni_context *context, limni_masks *masks,
+                                   const limni_mesh *mesh, const limni_mesh_sharpness *sharpness,
+                                   const limni_rules *rules) {
+    size_t widest = 0;
+    for (uint32_t c = 0; c < mesh->control_count; c++)
+        widest = mesh->valences[c] > widest ? mesh->valences[c] : widest;
+    *masks = (limni_masks){
+        .mesh = mesh,
+        .sharpness = sharpness,
+        .rules = rules,
+        .scheme = limni_scheme_of(mesh->domain),
+        .widest = widest,
+        .terms = limni_allocate(context, find_term_max(mesh), sizeof *masks->terms),
+        .room = limni_allocate(context, 5 * widest, sizeof *masks->room),
+    };
+    for (int w = 0; w < 2; w++)
+        masks->weights[w] = limni_allocate(context, 1 + 2 * widest, sizeof *masks->weights[w]);
+    if (!masks->terms || !masks->room || !masks->weights[0] || !masks->weights[1])
+        return LIMN_BAKE_MEMORY;
+    masks->star = (limni_star){.ring = masks->room,
+                               .edges = masks->room + widest,
+                               .beyond = masks->room + 2 * widest,
+                               .diagonals = masks->room + 3 * widest};
+    masks->ring_edges = masks->room + 4 * widest;
+    return LIMN_BAKE_OK;
+}
+
+void limni_masks_end(limni_context *context, limni_masks *masks) {
+    limni_release(context, masks->terms);
+    limni_release(context, masks->room);
+    limni_release(context, masks->weights[0]);
+    limni_release(context, masks->weights[1]);
+}
+
+// ---- Stars
+
+void limni_masks_look(limni_masks *masks, uint32_t control, uint32_t h) {
+    const limni_mesh *const mesh = masks->mesh;
+    limni_star *const star = &masks->star;
+    uint32_t turning =
+        h == LIMNI_NONE || limni_is_boundary(mesh, control) ? mesh->first[control] : h;
+    limni_mesh_star(mesh, masks->sharpness, turning, star);
+    for (uint32_t r = 0; r < star->count; r++) {
+        const uint32_t previous = limni_half_edge_previous(mesh, turning);
+        masks->ring_edges[r] = turning;
+        // Beyond the last face of an open star there is the edge that comes in.
+        turning = mesh->pairs[previous] == LIMNI_NONE ? previous : mesh->pairs[previous];
+    }
+}
+
+// ---- Terms
+
+static void add_term(limni_masks *masks, uint32_t control, limni_fixed weight) {
+    if (weight != 0) masks->terms[masks->term_count++] = (limni_term){control, weight};
+}
+
+/// The middle of a face is the mean of its corners.
+static void add_middle(limni_masks *masks, uint32_t face, limni_fixed weight) {
+    const limni_mesh *const mesh = masks->mesh;
+    const limni_fixed share = (limni_fixed)limni_wide_divide(weight, limni_face_size(mesh, face));
+    for (uint32_t h = mesh->offsets[face]; h < mesh->offsets[face + 1]; h++)
+        add_term(masks, mesh->corners[h], share);
+}
+
+void limni_masks_vertex(limni_masks *masks, uint32_t control) {
+    const limni_star *const star = &masks->star;
+    limni_fixed *const weights = masks->weights[0];
+    masks->scheme->vertex_mask(masks->rules, star, weights);
+    masks->term_count = 0;
+    add_term(masks, control, weights[0]);
+    for (uint32_t r = 0; r < star->count; r++)
+        add_term(masks, star->ring[r], weights[1 + r]);
+    if (masks->scheme->domain != LIMN_DOMAIN_QUAD) return;
+    for (uint32_t f = 0; f < limni_star_face_count(star); f++)
+        add_middle(masks, masks->mesh->face_of[masks->ring_edges[f]], weights[1 + star->count + f]);
+}
+
+/// What an edge has of the face of one of its half-edges.
+static void add_beside(limni_masks *masks, uint32_t h, limni_fixed weight) {
+    const limni_mesh *const mesh = masks->mesh;
+    if (h == LIMNI_NONE) return;
+    if (masks->scheme->domain == LIMN_DOMAIN_QUAD) {
+        add_middle(masks, mesh->face_of[h], weight);
+    } else {
+        add_term(masks, mesh->corners[limni_half_edge_previous(mesh, h)], weight);
+    }
+}
+
+void limni_masks_edge(limni_masks *masks, uint32_t control, uint32_t r) {
+    const limni_edge_feature feature = limni_star_edge_feature(masks->rules, &masks->star, r);
+    const limni_edge_mask mask = masks->scheme->edge_mask(&feature);
+    const uint32_t h = masks->ring_edges[r];
+    masks->term_count = 0;
+    add_term(masks, control, mask.ends[0]);
+    add_term(masks, masks->star.ring[r], mask.ends[1]);
+    add_beside(masks, h, mask.beside);
+    add_beside(masks, masks->mesh->pairs[h], mask.beside);
+}
+
+void limni_masks_face(limni_masks *masks, uint32_t face) {
+    masks->term_count = 0;
+    add_middle(masks, face, LIMNI_FIXED_ONE);
+}

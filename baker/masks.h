@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT */
+/* What one level of subdivision makes of a mesh: each point as a sum of vertices of the mesh. */
+#ifndef LIMNI_MASKS_H
+#define LIMNI_MASKS_H
+
+#include "mesh_sharpness.h"
+#include "scheme.h"
+
+typedef struct limni_term {
+    uint32_t control;
+    limni_fixed weight;
+} limni_term;
+
+typedef struct limni_masks {
+    const limni_mesh *mesh;
+    const limni_mesh_sharpness *sharpness;
+    const limni_rules *rules;
+    const limni_scheme *scheme;
+    limni_star star; ///< of the vertex that was looked at
+    uint32_t
+        *ring_edges; ///< [star.count] a half-edge to each ring vertex, which leaves the vertex;
+                     ///< in open stars the last leads to it
+    limni_fixed *weights[2]; ///< [1 + star.count + face count]
+    limni_term *terms;       ///< [term_count] of the point that was asked for; a vertex may occur
+                             ///< several times
+    uint32_t term_count;
+    size_t widest;  ///< the highest valence
+    uint32_t *room; ///< what the star points into
+} limni_masks;
+
+limn_bake_status limni_masks_begin(limni_context *context, limni_masks *masks,
+                                   const limni_mesh *mesh, const limni_mesh_sharpness *sharpness,
+                                   const limni_rules *rules);
+void limni_masks_end(limni_context *context, limni_masks *masks);
+
+/// Sets the star to that of a vertex with a first half-edge; closed ones start at half-edge `h` if
+/// it is given.
+void limni_masks_look(limni_masks *masks, uint32_t control, uint32_t h);
+
+/// Set the terms: of a vertex; of the middle of an edge, seen from its end at the star that was
+/// looked at, where it leads to ring vertex r; and of a face.
+void limni_masks_vertex(limni_masks *masks, uint32_t control);
+void limni_masks_edge(limni_masks *masks, uint32_t control, uint32_t r);
+void limni_masks_face(limni_masks *masks, uint32_t face);
+
+#endif
