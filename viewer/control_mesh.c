@@ -36,15 +36,15 @@ static uint32_t collect_edges(const limn_mesh *mesh, uint32_t (*edges)[2]) {
     return remove_duplicates(edges, count);
 }
 
-/// The ends of all edges, once each: points[c] counts the edges of control point c at first.
-static uint32_t collect_points(const view_control_mesh *control_mesh, uint32_t control_count,
+/// The ends of all edges, once each: points[c] counts the edges of point c at first.
+static uint32_t collect_points(const view_control_mesh *control_mesh, uint32_t point_count,
                                uint32_t *points) {
     for (uint32_t edge = 0; edge < control_mesh->edge_count; edge++) {
         points[control_mesh->edges[edge][0]]++;
         points[control_mesh->edges[edge][1]]++;
     }
     uint32_t kept = 0;
-    for (uint32_t control = 0; control < control_count; control++) {
+    for (uint32_t control = 0; control < point_count; control++) {
         if (points[control] > 0) points[kept++] = control;
     }
     return kept;
@@ -54,7 +54,7 @@ bool view_control_mesh_find(view_control_mesh *control_mesh, const limn_mesh *me
     const size_t edge_bound = (size_t)mesh->patch_count * mesh->domain->corner_count;
     *control_mesh = (view_control_mesh){
         .edges = calloc(edge_bound + 1, sizeof *control_mesh->edges),
-        .points = calloc((size_t)mesh->control_count + 1, sizeof *control_mesh->points),
+        .points = calloc((size_t)mesh->point_count + 1, sizeof *control_mesh->points),
     };
     if (!control_mesh->edges || !control_mesh->points) {
         view_control_mesh_free(control_mesh);
@@ -62,7 +62,7 @@ bool view_control_mesh_find(view_control_mesh *control_mesh, const limn_mesh *me
     }
     control_mesh->edge_count = collect_edges(mesh, control_mesh->edges);
     control_mesh->point_count =
-        collect_points(control_mesh, mesh->control_count, control_mesh->points);
+        collect_points(control_mesh, mesh->point_count, control_mesh->points);
     return true;
 }
 

@@ -29,7 +29,7 @@ struct view_renderer {
     const view_gl *gl;
     GLuint background, shaded, wireframe, lines, points; ///< programs
     GLuint empty_layout;
-    GLuint templates; ///< index buffer
+    GLuint templates[LIMN_DOMAIN_COUNT]; ///< index buffers
     drawable *drawables;
     uint32_t drawable_count;
 };
@@ -109,7 +109,7 @@ static void upload_surface(const view_gl *gl, drawable *target, const view_surfa
 static geometry create_overlay(const view_gl *gl, const limn_mesh *mesh, const uint32_t *indices,
                                size_t index_count) {
     geometry result =
-        create_geometry(gl, mesh->controls, (size_t)mesh->control_count * sizeof(float[3]));
+        create_geometry(gl, mesh->controls, (size_t)mesh->point_count * sizeof(float[3]));
     result.index_buffer =
         create_buffer(gl, GL_ELEMENT_ARRAY_BUFFER, indices, index_count * sizeof *indices);
     set_floats(gl, 0, 3, sizeof(float[3]), 0);
@@ -144,14 +144,17 @@ static bool create_drawables(view_renderer *renderer, const view_scene *scene) {
     renderer->drawables = calloc((size_t)scene->surface_count + 1, sizeof *renderer->drawables);
     if (!renderer->drawables) return view_fail("out of memory");
     renderer->drawable_count = scene->surface_count;
-    renderer->templates =
-        create_buffer(renderer->gl, GL_ARRAY_BUFFER, scene->templates.indices,
-                      scene->templates.index_count * sizeof *scene->templates.indices);
+    for (int d = 0; d < LIMN_DOMAIN_COUNT; d++) {
+        const view_templates *const templates = &scene->templates[d];
+        renderer->templates[d] = create_buffer(renderer->gl, GL_ARRAY_BUFFER, templates->indices,
+                                               templates->index_count * sizeof *templates->indices);
+    }
     for (uint32_t i = 0; i < scene->surface_count; i++) {
         drawable *const target = &renderer->drawables[i];
         target->source = &scene->surfaces[i];
         if (!list_draws(target, target->source)) return view_fail("out of memory");
-        upload_surface(renderer->gl, target, target->source, renderer->templates);
+        upload_surface(renderer->gl, target, target->source,
+                       renderer->templates[target->source->mesh.domain->kind]);
         upload_control_mesh(renderer->gl, target, target->source);
     }
     return view_gl_check(renderer->gl, "uploading the meshes");
@@ -298,6 +301,6 @@ void view_renderer_destroy(view_renderer *renderer) {
     for (size_t i = 0; i < sizeof programs / sizeof *programs; i++)
         gl->DeleteProgram(programs[i]);
     gl->DeleteVertexArrays(1, &renderer->empty_layout);
-    gl->DeleteBuffers(1, &renderer->templates);
+    gl->DeleteBuffers(LIMN_DOMAIN_COUNT, renderer->templates);
     free(renderer);
 }

@@ -57,26 +57,27 @@ static bool evaluate_vertices(const limn_plan *plan, const uint16_t *indices,
 
 static bool evaluate_surface(const view_scene *scene, view_surface *surface) {
     const limn_mesh *const mesh = &surface->mesh;
+    const view_templates *const templates = &scene->templates[mesh->domain->kind];
     if (has_too_many(mesh, limni_frame_vertex_bound(&scene->frame, mesh))) return false;
     surface->plan_memory = malloc(limn_plan_size(mesh) + 1);
     if (!surface->plan_memory) return view_fail("out of memory for mesh '%s'", mesh->name);
     surface->plan = limn_plan_build(mesh, mesh->controls, &scene->frame.view, 1, &scene->frame.desc,
-                                    scene->templates.templates, surface->plan_memory);
+                                    templates->templates, surface->plan_memory);
     const limn_plan *const plan = &surface->plan;
     surface->vertices = calloc((size_t)plan->vertex_count + 1, sizeof *surface->vertices);
     if (!surface->vertices) return view_fail("out of memory for mesh '%s'", mesh->name);
 
     describe_vertices(plan, surface->vertices);
-    if (!evaluate_vertices(plan, scene->templates.indices, surface->vertices) ||
+    if (!evaluate_vertices(plan, templates->indices, surface->vertices) ||
         !view_control_mesh_find(&surface->control_mesh, mesh)) {
         return view_fail("out of memory for mesh '%s'", mesh->name);
     }
     return true;
 }
 
-static bool list_templates(view_templates *templates) {
-    const limn_domain *const domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE);
+static bool list_templates(const limn_domain *domain, view_templates *templates) {
     const limn_topology topology = LIMN_TOPOLOGY_TRIANGLES;
+    if (templates->templates) return true;
     templates->index_count = limn_templates_write(domain, topology, 2, NULL, NULL);
     templates->indices = calloc(templates->index_count, sizeof *templates->indices);
     templates->templates = calloc(limn_template_count(domain), sizeof *templates->templates);
@@ -90,13 +91,15 @@ static bool evaluate_meshes(view_scene *scene, limni_frame_options options, uint
     const limni_bounds bounds = limni_bounds_of(&scene->pack, first, count);
     if (!limni_frame_resolve(&options, &bounds, &scene->frame))
         return view_fail("%s", options.error);
-    if (!list_templates(&scene->templates)) return false;
     scene->surfaces = calloc((size_t)count + 1, sizeof *scene->surfaces);
     if (!scene->surfaces) return view_fail("out of memory for %u meshes", count);
     for (uint32_t i = 0; i < count; i++) {
         scene->surface_count = i + 1;
         scene->surfaces[i].mesh = limn_pack_mesh(&scene->pack, first + i);
-        if (!evaluate_surface(scene, &scene->surfaces[i])) return false;
+        const limn_domain *const domain = scene->surfaces[i].mesh.domain;
+        if (!list_templates(domain, &scene->templates[domain->kind]) ||
+            !evaluate_surface(scene, &scene->surfaces[i]))
+            return false;
     }
     return true;
 }
@@ -126,8 +129,10 @@ void view_scene_close(view_scene *scene) {
         view_control_mesh_free(&scene->surfaces[i].control_mesh);
     }
     free(scene->surfaces);
-    free(scene->templates.indices);
-    free(scene->templates.templates);
+    for (int domain = 0; domain < LIMN_DOMAIN_COUNT; domain++) {
+        free(scene->templates[domain].indices);
+        free(scene->templates[domain].templates);
+    }
     limni_blob_file_close(&scene->blob);
     *scene = (view_scene){0};
 }

@@ -17,7 +17,7 @@ typedef struct view_vertex {
     uint8_t borders[4]; ///< grid steps, at most 16, from each edge of the patch; 255: no such edge
 } view_vertex;
 
-/// The index templates of a domain.
+/// The index templates of a domain; empty unless a surface has it.
 typedef struct view_templates {
     uint16_t *indices;
     limn_template *templates;
@@ -37,7 +37,7 @@ typedef struct view_scene {
     limni_blob_file blob;
     limn_pack pack;
     limni_frame frame;
-    view_templates templates; ///< of LIMN_DOMAIN_TRIANGLE, the only domain yet
+    view_templates templates[LIMN_DOMAIN_COUNT]; ///< of the domains that surfaces have
     view_surface *surfaces;
     uint32_t surface_count;
 } view_scene;
