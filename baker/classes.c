@@ -148,6 +148,20 @@ static void find_used(const limni_coefficients *c, bool *used) {
     }
 }
 
+/// The largest sum of what is below 0 in a row of positions.
+static float find_negative(const limni_coefficients *c) {
+    limni_fixed largest = 0;
+    for (uint32_t row = 0; row < c->row_count; row++) {
+        limni_fixed sum = 0;
+        for (uint32_t slot = 0; slot < c->slot_count; slot++) {
+            const limni_fixed coefficient = limni_coefficient(c, 0, row, slot);
+            sum -= coefficient < 0 ? coefficient : 0;
+        }
+        largest = sum > largest ? sum : largest;
+    }
+    return limni_fixed_to_float(largest);
+}
+
 /// Numbers the columns in the order of the slots; where there is a mirror line, after slot 0 first
 /// the pairs.
 static void number_columns(class_maker *maker, uint16_t *columns) {
@@ -336,7 +350,8 @@ static limn_bake_status make_class(limni_context *context, const limni_rules *ru
                            .control_count = maker.control_count,
                            .pair_count = maker.pair_count,
                            .table_count = maker.coefficients.table_count,
-                           .row_stride = row_stride};
+                           .row_stride = row_stride,
+                           .negative = find_negative(&maker.coefficients)};
     class->table = limni_allocate_zeroed(context, limni_class_table_size(class), 1);
     class->prints = limni_allocate(context, class->control_count, sizeof *class->prints);
     if (!class->table || !class->prints) return LIMN_BAKE_MEMORY;
@@ -436,6 +451,7 @@ limn_file_class limni_class_record(const limni_class *class) {
         .boundary_corners = class->boundary_corners,
         .table_count = (uint16_t) class->table_count,
         .pair_count = (uint16_t) class->pair_count,
+        .negative = class->negative,
     };
     for (int corner = 0; corner < LIMN_CORNER_MAX; corner++)
         record.valences[corner] = (uint16_t) class->valences[corner];

@@ -45,6 +45,7 @@ typedef struct limni_class {
     uint32_t pair_count;                ///< of columns, if the class is its own mirror image
     uint32_t table_count;               ///< 1, or 3 with the tangents
     uint32_t row_stride;                ///< rows of a column in the file
+    float negative;                     ///< see limn_file_class; of pieces, the largest of theirs
     float *table;    ///< [table_count][control_count][row_stride]; NULL: in pieces
     uint16_t *parts; ///< [LIMNI_PIECE_COUNT] the pieces, and [LIMNI_PIECE_COUNT][control_count] the
                      ///< column of each slot; NULL: it has a table

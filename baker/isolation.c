@@ -135,6 +135,8 @@ static limni_class describe_class(const limni_isolation *isolation, const limni_
     for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++, columns += count) {
         const uint32_t key = isolation->assigned.keys[piece_face(isolation, face, rotation, p)];
         class.parts[p] = (uint16_t)pieces->keys[key].class_index;
+        const float negative = pieces->items[class.parts[p]].negative;
+        class.negative = negative > class.negative ? negative : class.negative;
         memcpy(columns, isolation->columns + p * LIMNI_LOCAL_BASE_MAX, count * sizeof *columns);
     }
     return class;

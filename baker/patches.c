@@ -282,7 +282,7 @@ static limn_bake_status append_points(limni_context *context, const limni_stenci
         all->offsets[point + p] = term + added->offsets[p];
     for (uint32_t t = 0; t < terms; t++)
         all->terms[term + t] =
-            (limn_file_term){first + added->terms[t].control, added->terms[t].weight};
+            (limn_file_term){first + added->terms[t].point, added->terms[t].weight};
     patches->record.point_count = before + count;
     const limni_stencils own = {all->offsets + point, all->terms};
     limni_place_points(&own, controls, before, count);

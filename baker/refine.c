@@ -349,7 +349,7 @@ static limn_bake_status write_point(writer *w, uint32_t point) {
             weight += terms[next].weight;
         if (weight != 0)
             w->stencils->terms[w->count++] = (limn_file_term){
-                .control = terms[k].control, .weight = limni_fixed_to_float(weight)};
+                .point = terms[k].control, .weight = limni_fixed_to_float(weight)};
     }
     return LIMN_BAKE_OK;
 }

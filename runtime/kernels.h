@@ -50,13 +50,11 @@ typedef struct limni_run {
     const limni_layout *layout;     ///< of positions
     const limni_layout *tangent_layout; ///< with the same stride
     uint32_t control_count;
-    uint32_t pair_count; ///< mirrored control points: slots 1 and 2, 3 and 4, …; 0: no symmetry
-    size_t table_stride; ///< floats from table to table
-    uint32_t slot_size;  ///< 1 or 2
-    uint32_t
-        first_corner; ///< index of what stands for control point 0 at corners: with pieces, the
-                      ///< points of level 1
-    const uint32_t *corner_normals; ///< [patch_count][corner_count]; NULL: the control points
+    uint32_t pair_count;   ///< mirrored control points: slots 1 and 2, 3 and 4, …; 0: no symmetry
+    size_t table_stride;   ///< floats from table to table
+    uint32_t slot_size;    ///< 1 or 2
+    uint32_t first_corner; ///< see limni_first_corner()
+    const uint32_t *corner_normals; ///< [patch_count][corner_count]; NULL: the base vertices
     uint32_t patch_count;
     const limn_plan_patch
         *items;           ///< [patch_count] what is wanted of which patches, from one class;
@@ -107,21 +105,20 @@ typedef struct limni_target {
     const limn_domain *domain;
 } limni_target;
 
-/// A control point and those around it, with the masks of its two limit tangents.
+/// A base vertex and the points around it, with the masks of its two limit tangents.
 typedef struct limni_ring {
-    uint32_t control, count;
-    const uint32_t *controls; ///< [count]
-    const float *weights;     ///< [2][count], which apply relative to the control point
+    uint32_t point, count;
+    const uint32_t *points; ///< [count]
+    const float *weights;   ///< [2][count], which apply relative to the base vertex
 } limni_ring;
 
 static inline limni_ring limni_ring_of(const limn_mesh *mesh, uint32_t normal) {
     const limn_file_side *const side =
-        normal < mesh->control_count ? NULL : &mesh->sides[normal - mesh->control_count];
-    const uint32_t control = side ? side->control : normal;
-    const limn_file_normal *const record = side ? &side->normal : &mesh->normals[control];
-    return (limni_ring){.control = control,
+        normal < mesh->base_count ? NULL : &mesh->sides[normal - mesh->base_count];
+    const limn_file_normal *const record = side ? &side->normal : &mesh->normals[normal];
+    return (limni_ring){.point = side ? side->point : mesh->base_first + normal,
                         .count = record->ring_count,
-                        .controls = mesh->ring + record->first_ring,
+                        .points = mesh->ring + record->first_ring,
                         .weights = mesh->weights + record->first_weight};
 }
 

@@ -42,7 +42,7 @@ limni_run limni_run_part(const limn_mesh *mesh, const limn_file_run *run, uint32
         .slots = mesh->slots + run->first_slot + skipped * slot_size,
         .control_count = class->control_count,
         .slot_size = slot_size,
-        .first_corner = limni_first_corner(mesh, class),
+        .first_corner = limni_first_corner(mesh),
         .corner_normals = mesh->corner_normals
                               ? mesh->corner_normals +
                                     mesh->domain->corner_count * ((size_t)run->first_patch + begin)
@@ -75,5 +75,5 @@ void limn_mesh_corners(const limn_mesh *mesh, uint32_t patch_index,
     const uint32_t in_run = patch_index - run->first_patch;
     const limni_run patch = limni_run_part(mesh, run, in_run, in_run + 1);
     for (uint32_t corner = 0; corner < mesh->domain->corner_count; corner++)
-        corners[corner] = patch.indices[corner] - patch.first_corner;
+        corners[corner] = mesh->base_first + (patch.indices[corner] - patch.first_corner);
 }

@@ -7,10 +7,15 @@
 /// The run that holds `patch_index`: the last one that starts at or before it.
 uint32_t limni_find_run(const limn_mesh *mesh, uint32_t patch_index);
 
-/// The index that stands for control point 0 where the corners of patches are: in pieces, these are
-/// points of level 1, of which the first belong to the control points.
-static inline uint32_t limni_first_corner(const limn_mesh *mesh, const limn_file_class *class) {
-    return class->depth == LIMN_FORMAT_PIECE_DEPTH ? mesh->control_count : 0;
+/// The points of an isolated mesh go on behind the base vertices: one for each of these, and others.
+static inline bool limni_is_isolated(const limn_mesh *mesh) {
+    return mesh->point_count > mesh->base_first + mesh->base_count;
+}
+
+/// The index that stands for the first base vertex where the corners of patches are: of an isolated
+/// mesh, that of the point which belongs to it.
+static inline uint32_t limni_first_corner(const limn_mesh *mesh) {
+    return mesh->base_first + (limni_is_isolated(mesh) ? mesh->base_count : 0);
 }
 
 /// Patches [begin, end) of a run, counted within it, as the kernels take them.

@@ -223,7 +223,8 @@ static limn_result validate_parts(const limn_pack *pack, const limn_file_class *
 
 static limn_result validate_class(const limn_pack *pack, const limn_file_chunk *tables,
                                   const limn_file_class *class) {
-    if (class->domain >= LIMN_DOMAIN_COUNT || class->control_count > LIMN_FORMAT_CONTROLS_MAX)
+    if (class->domain >= LIMN_DOMAIN_COUNT || class->control_count > LIMN_FORMAT_CONTROLS_MAX ||
+        !all_finite(&class->negative, 1) || class->negative < 0)
         return LIMN_ERROR_CLASS;
     const limn_domain *const domain = limn_domain_get((limn_domain_kind) class->domain);
     if (class->control_count < domain->corner_count) return LIMN_ERROR_CLASS;
@@ -259,6 +260,17 @@ static limn_result validate_classes(const limn_pack *pack) {
 
 // ---- Validation of a mesh
 
+static uint32_t base_count(const limn_file_mesh *record) {
+    return record->divided_count ? record->divided_count : record->control_count;
+}
+
+/// The base vertices end at the last point; or points of a further level follow, at least one for
+/// each.
+static bool are_points_right(const limn_file_mesh *record) {
+    const uint64_t base_end = (uint64_t)record->control_count + record->divided_count;
+    return record->point_count == base_end || record->point_count >= base_end + base_count(record);
+}
+
 static limn_result validate_mesh_sizes(const limn_pack *pack, uint32_t m) {
     for (size_t k = 0; k < sizeof kinds_of_mesh / sizeof *kinds_of_mesh; k++) {
         if (!find_chunk(pack, m, kinds_of_mesh[k])) return LIMN_ERROR_CHUNK;
@@ -266,9 +278,7 @@ static limn_result validate_mesh_sizes(const limn_pack *pack, uint32_t m) {
     if (!chunk_has_size(pack, m, LIMN_CHUNK_MESH, 1, sizeof(limn_file_mesh)))
         return LIMN_ERROR_MESH;
     const limn_file_mesh *const record = chunk_data(pack, m, LIMN_CHUNK_MESH);
-    if (record->domain >= LIMN_DOMAIN_COUNT ||
-        (record->point_count != record->control_count &&
-         record->point_count / 2 < record->control_count) ||
+    if (record->domain >= LIMN_DOMAIN_COUNT || !are_points_right(record) ||
         record->hole_count > UINT32_MAX - record->patch_count ||
         !chunk_has_size(pack, m, LIMN_CHUNK_CONTROLS, record->point_count, 3 * sizeof(float)) ||
         !chunk_has_size(pack, m, LIMN_CHUNK_RUNS, record->run_count, sizeof(limn_file_run)) ||
@@ -294,7 +304,7 @@ static limn_result validate_runs(const limn_pack *pack, const limn_mesh *mesh, u
         slot += slot % slot_size;
         const bool in_pieces = class->depth == LIMN_FORMAT_PIECE_DEPTH;
         if (class->domain != mesh->domain->kind || run->patch_count == 0 ||
-            in_pieces != (mesh->point_count > mesh->control_count) || run->first_patch != patch ||
+            in_pieces != limni_is_isolated(mesh) || run->first_patch != patch ||
             run->first_index != index || run->first_slot != slot)
             return LIMN_ERROR_RUN;
         const uint64_t count = (uint64_t)run->patch_count * class->control_count;
@@ -344,11 +354,11 @@ static limn_result validate_patches(const limn_mesh *mesh, const limn_file_run *
     const uint32_t count = class->control_count, slot_size = limn_file_slot_size(class);
     const uint32_t *indices = mesh->indices + run->first_index;
     const uint8_t *slots = mesh->slots + run->first_slot;
-    const uint32_t first_corner = limni_first_corner(mesh, class);
+    const uint32_t first_corner = limni_first_corner(mesh);
     const index_range range = {.corner_count = mesh->domain->corner_count,
                                .begin = first_corner,
-                               .corner_end = first_corner + mesh->control_count,
-                               .end = first_corner ? mesh->point_count : mesh->control_count};
+                               .corner_end = first_corner + mesh->base_count,
+                               .end = mesh->point_count};
     for (uint32_t p = 0; p < run->patch_count; p++) {
         TRY(validate_patch(indices, slots, slot_size, count, &range));
         indices += count;
@@ -366,7 +376,7 @@ static limn_result validate_faces(const limn_mesh *mesh) {
     return LIMN_OK;
 }
 
-/// An isolated mesh has stencils for all points behind its control points, and others have none.
+/// Points behind the control points have stencils, of points before them.
 static limn_result validate_stencils(const limn_pack *pack, const limn_mesh *mesh, uint32_t m) {
     const limn_file_chunk *const chunk = find_chunk(pack, m, LIMN_CHUNK_TERMS);
     const uint32_t count = mesh->point_count - mesh->control_count;
@@ -380,9 +390,12 @@ static limn_result validate_stencils(const limn_pack *pack, const limn_mesh *mes
     for (uint32_t point = 0; point < count; point++) {
         if (mesh->stencils[point] > mesh->stencils[point + 1]) return LIMN_ERROR_STENCIL;
     }
-    for (uint64_t t = 0; t < term_count; t++) {
-        if (mesh->terms[t].control >= mesh->control_count || !all_finite(&mesh->terms[t].weight, 1))
-            return LIMN_ERROR_STENCIL;
+    const limn_file_term *term = mesh->terms;
+    for (uint32_t point = 0; point < count; point++) {
+        for (; term < mesh->terms + mesh->stencils[point + 1]; term++) {
+            if (term->point >= mesh->control_count + point || !all_finite(&term->weight, 1))
+                return LIMN_ERROR_STENCIL;
+        }
     }
     return LIMN_OK;
 }
@@ -409,13 +422,13 @@ static limn_result validate_sides(const limn_pack *pack, const limn_mesh *mesh, 
     const uint32_t corner_count = mesh->domain->corner_count;
     if (!mesh->sides != !mesh->corner_normals) return LIMN_ERROR_CHUNK;
     if (!mesh->sides) return LIMN_OK;
-    if (!chunk_has_size(pack, m, LIMN_CHUNK_SIDES, mesh->normal_count - mesh->control_count,
+    if (!chunk_has_size(pack, m, LIMN_CHUNK_SIDES, mesh->normal_count - mesh->base_count,
                         sizeof *mesh->sides) ||
         !chunk_has_size(pack, m, LIMN_CHUNK_CORNERS, mesh->patch_count,
                         corner_count * sizeof(uint32_t)))
         return LIMN_ERROR_MESH;
-    for (uint32_t s = 0; s < mesh->normal_count - mesh->control_count; s++) {
-        if (mesh->sides[s].control >= mesh->control_count ||
+    for (uint32_t s = 0; s < mesh->normal_count - mesh->base_count; s++) {
+        if (mesh->sides[s].point - mesh->base_first >= mesh->base_count ||
             !is_normal_inside(&mesh->sides[s].normal, ring_size, weight_count))
             return LIMN_ERROR_NORMALS;
     }
@@ -431,20 +444,20 @@ static limn_result validate_normals(const limn_pack *pack, const limn_mesh *mesh
     const limn_file_chunk *const rings = find_chunk(pack, m, LIMN_CHUNK_RINGS);
     const limn_file_chunk *const weights = find_chunk(pack, m, LIMN_CHUNK_WEIGHTS);
     if (!rings || !weights) return LIMN_ERROR_CHUNK;
-    if (!chunk_has_size(pack, m, LIMN_CHUNK_NORMALS, mesh->control_count, sizeof *mesh->normals))
+    if (!chunk_has_size(pack, m, LIMN_CHUNK_NORMALS, mesh->base_count, sizeof *mesh->normals))
         return LIMN_ERROR_MESH;
     const uint64_t ring_size = rings->size / sizeof(uint32_t);
     const uint64_t weight_count = weights->size / sizeof(float);
     for (uint32_t r = 0; r < mesh->run_count; r++) {
         if (mesh->classes[mesh->runs[r].class_index].table_count != 3) return LIMN_ERROR_NORMALS;
     }
-    for (uint32_t c = 0; c < mesh->control_count; c++) {
+    for (uint32_t c = 0; c < mesh->base_count; c++) {
         if (!is_normal_inside(&mesh->normals[c], ring_size, weight_count))
             return LIMN_ERROR_NORMALS;
     }
     TRY(validate_sides(pack, mesh, m, ring_size, weight_count));
     for (uint64_t r = 0; r < ring_size; r++) {
-        if (mesh->ring[r] >= mesh->control_count) return LIMN_ERROR_NORMALS;
+        if (mesh->ring[r] >= mesh->base_first + mesh->base_count) return LIMN_ERROR_NORMALS;
     }
     return all_finite(mesh->weights, (size_t)weight_count) ? LIMN_OK : LIMN_ERROR_NORMALS;
 }
@@ -505,6 +518,8 @@ limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index) {
         .domain = limn_domain_get((limn_domain_kind)record->domain),
         .controls = chunk_data(pack, mesh_index, LIMN_CHUNK_CONTROLS),
         .control_count = record->control_count,
+        .base_first = record->divided_count ? record->control_count : 0,
+        .base_count = base_count(record),
         .point_count = record->point_count,
         .patch_count = record->patch_count,
         .face_count = record->patch_count + record->hole_count,
@@ -528,7 +543,7 @@ limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index) {
         .corner_normals = optional_data(pack, mesh_index, LIMN_CHUNK_CORNERS),
         .kernels = pack->kernels,
     };
-    if (mesh.normals) mesh.normal_count = mesh.control_count + side_count(pack, mesh_index);
+    if (mesh.normals) mesh.normal_count = mesh.base_count + side_count(pack, mesh_index);
     memcpy(mesh.bounds_min, record->bounds_min, sizeof mesh.bounds_min);
     memcpy(mesh.bounds_max, record->bounds_max, sizeof mesh.bounds_max);
     memcpy(mesh.origin, record->origin, sizeof mesh.origin);

@@ -49,11 +49,15 @@ typedef struct point_block {
     float axes[3][LIMNI_LOD_BLOCK];
 } point_block;
 
+static inline float distance_inside(const float plane[4], const float *point) {
+    return plane[0] * point[0] + plane[1] * point[1] + plane[2] * point[2] + plane[3];
+}
+
 static void add_plane(const point_block *points, const float plane[4], uint32_t bit,
                       uint32_t outside[LIMNI_LOD_BLOCK]) {
     for (int i = 0; i < LIMNI_LOD_BLOCK; i++) {
-        const float side = plane[0] * points->axes[0][i] + plane[1] * points->axes[1][i] +
-                           plane[2] * points->axes[2][i] + plane[3];
+        const float point[3] = {points->axes[0][i], points->axes[1][i], points->axes[2][i]};
+        const float side = distance_inside(plane, point);
         outside[i] |= side < 0 ? bit : 0;
     }
 }
@@ -86,28 +90,57 @@ static inline bool is_in_view(uint32_t outside, uint32_t view_count) {
     return seen;
 }
 
+/// Whether the surface may reach back over a plane that all points of a patch are outside of. Along
+/// its normal a row is at most max + negative (max - min) of the points.
+static bool reaches_over(const planner *p, const float plane[4], const uint32_t *indices,
+                         const limn_file_class *class) {
+    float high = -INFINITY, low = INFINITY;
+    for (uint32_t k = 0; k < class->control_count; k++) {
+        const float side = distance_inside(plane, p->controls + 3 * (size_t)indices[k]);
+        high = side > high ? side : high;
+        low = side < low ? side : low;
+    }
+    return !(high + class->negative * (high - low) < 0);
+}
+
+/// Of a patch whose points are outside of all these planes, but whose surface may leave their hull.
+static bool may_leave_hull(const planner *p, uint32_t outside, const uint32_t *indices,
+                           const limn_file_class *class) {
+    for (uint32_t v = 0; v < p->view_count; v++) {
+        bool seen = true;
+        for (uint32_t k = 0; k < p->views[v].plane_count && seen; k++) {
+            if (outside >> (PLANES * v + k) & 1)
+                seen = reaches_over(p, p->views[v].planes[k], indices, class);
+        }
+        if (seen) return true;
+    }
+    return false;
+}
+
 /// The corners come first, and most often decide.
 static inline bool may_be_seen(const planner *p, const uint32_t *indices, uint32_t corner_count,
-                               uint32_t count) {
-    const uint32_t *const of = p->outside;
+                               const limn_file_class *class) {
+    const uint32_t *const of = p->outside, count = class->control_count;
     uint32_t outside = UINT32_MAX;
     for (uint32_t k = 0; k < corner_count; k++)
         outside &= of[indices[k]];
     if (is_in_view(outside, p->view_count)) return true;
     for (uint32_t k = corner_count; k < count; k++)
         outside &= of[indices[k]];
-    return is_in_view(outside, p->view_count);
+    return is_in_view(outside, p->view_count) ||
+           (class->negative > 0 && may_leave_hull(p, outside, indices, class));
 }
 
 // ---- Listing
 
-/// first_corner  index that stands for control point 0 at corners
+/// bases         from the first base vertex on
+/// first_corner  see limni_first_corner()
 /// errors        [corner_count]; NULL: levels do not ask for them
-static inline void set_edges(const float *controls, const uint32_t *indices, uint32_t first_corner,
+static inline void set_edges(const float *bases, const uint32_t *indices, uint32_t first_corner,
                              const uint16_t *errors, uint32_t corner_count, uint32_t at,
                              limni_lod_block *block) {
     for (uint32_t corner = 0; corner < corner_count; corner++) {
-        const float *const point = controls + 3 * (size_t)(indices[corner] - first_corner);
+        const float *const point = bases + 3 * (size_t)(indices[corner] - first_corner);
         block->corners[corner][0][at] = point[0];
         block->corners[corner][1][at] = point[1];
         block->corners[corner][2][at] = point[2];
@@ -125,16 +158,16 @@ static void measure_block(const planner *p, const limni_lod_block *block) {
 static inline void list_run(planner *p, const limn_file_run *run, uint32_t corner_count,
                             limni_lod_block *block) {
     const limn_mesh *const mesh = p->mesh;
-    const float *const controls = p->controls;
+    const float *const bases = p->controls + 3 * (size_t)mesh->base_first;
     const uint16_t *const errors = p->desc.lod == LIMN_LOD_ERROR ? mesh->errors : NULL;
     const limn_file_class *const class = &mesh->classes[run->class_index];
-    const uint32_t count = class->control_count, first_corner = limni_first_corner(mesh, class);
+    const uint32_t count = class->control_count, first_corner = limni_first_corner(mesh);
     const uint32_t *indices = mesh->indices + run->first_index;
     for (uint32_t i = 0; i < run->patch_count; i++, indices += count) {
         const uint32_t patch = run->first_patch + i, at = p->patch_count % LIMNI_LOD_BLOCK;
-        if (!may_be_seen(p, indices, corner_count, count)) continue;
+        if (!may_be_seen(p, indices, corner_count, class)) continue;
         if (p->desc.keep_fn && !p->desc.keep_fn(p->desc.keep_user, patch)) continue;
-        set_edges(controls, indices, first_corner,
+        set_edges(bases, indices, first_corner,
                   errors ? errors + (size_t)patch * corner_count : NULL, corner_count, at, block);
         p->patches[p->patch_count++].patch = patch;
         if (at == LIMNI_LOD_BLOCK - 1) measure_block(p, block);

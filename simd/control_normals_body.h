@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The limit normals of control points, a block of them at a time. */
+/* The limit normals of base vertices, a block of them at a time. */
 #ifndef CONTROL_NORMALS_BODY_H
 #define CONTROL_NORMALS_BODY_H
 
@@ -7,14 +7,14 @@
 
 enum { CONTROL_BLOCK = 64 };
 
-/// Two weighted sums of the ring of a control point, relative to it, into place i.
+/// Two weighted sums of the ring of a base vertex, relative to it, into place i.
 static inline void sum_ring(const limni_ring *ring, const float *controls, size_t i, vectors *along,
                             vectors *across) {
     const float *const first = ring->weights, *const second = first + ring->count;
-    const quad centre = quad_load_point(controls + 3 * (size_t)ring->control);
+    const quad centre = quad_load_point(controls + 3 * (size_t)ring->point);
     quad a = quad_splat(0), b = quad_splat(0);
     for (uint32_t r = 0; r < ring->count; r++) {
-        const size_t other = ring->controls[r];
+        const size_t other = ring->points[r];
         const quad point = quad_subtract(quad_load_point(controls + 3 * other), centre);
         a = quad_add(a, quad_multiply(quad_splat(first[r]), point));
         b = quad_add(b, quad_multiply(quad_splat(second[r]), point));

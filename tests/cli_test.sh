@@ -465,7 +465,7 @@ for key in file version size table_size columns_size class_count piece_count mes
     bytes_per_face edge_errors classes use_count; do
     says stdout "^ *\"$key\": "
 done
-expect "version" "$(json version)" 4
+expect "version" "$(json version)" 5
 expect "size" "$(json size)" "$(size_of several.limn)"
 expect "meshes" "$(grep -c '"bytes_per_face"' stdout.txt)" 4
 expect "names" "$(sed -n 's/^ *"name": "\(.*\)",*$/\1/p' stdout.txt | tr '\n' ' ')" "torus32 sail cube torus32 "

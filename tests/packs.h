@@ -186,7 +186,7 @@ static inline void check_corners(const limn_mesh *mesh, uint32_t patch_index) {
     memset(found, 0xff, sizeof found);
     limn_mesh_corners(mesh, patch_index, found);
     for (uint32_t c = 0; c < mesh->domain->corner_count; c++)
-        CHECK(found[c] < mesh->control_count);
+        CHECK(found[c] - mesh->base_first < mesh->base_count);
     CHECK(limn_mesh_face(mesh, patch_index).face < mesh->patch_count);
 }
 

@@ -276,6 +276,19 @@ static void class_without_controls(const blob *file) {
 static void class_with_many_controls(const blob *file) {
     classes_of(file)->control_count = UINT32_MAX;
 }
+static void class_bound_negative(const blob *file) {
+    classes_of(file)->negative = -0x1p-20f;
+}
+static void class_bound_infinite(const blob *file) {
+    classes_of(file)->negative = INFINITY;
+}
+static void class_bound_not_a_number(const blob *file) {
+    classes_of(file)->negative = NAN;
+}
+/// Not damage: any bound will do.
+static void class_bound_large(const blob *file) {
+    classes_of(file)->negative = 0x1p100f;
+}
 static void class_table_misaligned(const blob *file) {
     classes_of(file)->table_offset += 4;
 }
@@ -307,6 +320,15 @@ static void mesh_indices(const blob *file) {
 }
 static void mesh_errors(const blob *file) {
     find_chunk(file, STRIP, LIMN_CHUNK_ERRORS)->size -= sizeof(uint16_t);
+}
+static void mesh_divided(const blob *file) {
+    record_of(file, STRIP)->divided_count = 1;
+}
+static void mesh_divided_overflows(const blob *file) {
+    record_of(file, STRIP)->divided_count = UINT32_MAX;
+}
+static void mesh_of_quads(const blob *file) {
+    record_of(file, STRIP)->domain = LIMN_DOMAIN_QUAD;
 }
 static void mesh_domain(const blob *file) {
     record_of(file, STRIP)->domain = LIMN_DOMAIN_COUNT;
@@ -423,6 +445,10 @@ static const damage damages[] = {
     DAMAGE(class_depth, LIMN_ERROR_CLASS),
     DAMAGE(class_without_controls, LIMN_ERROR_CLASS),
     DAMAGE(class_with_many_controls, LIMN_ERROR_CLASS),
+    DAMAGE(class_bound_negative, LIMN_ERROR_CLASS),
+    DAMAGE(class_bound_infinite, LIMN_ERROR_CLASS),
+    DAMAGE(class_bound_not_a_number, LIMN_ERROR_CLASS),
+    DAMAGE(class_bound_large, LIMN_OK),
     DAMAGE(class_table_misaligned, LIMN_ERROR_CLASS),
     DAMAGE(class_table_outside, LIMN_ERROR_CLASS),
     DAMAGE(class_table_overflows, LIMN_ERROR_CLASS),
@@ -433,6 +459,9 @@ static const damage damages[] = {
     DAMAGE(mesh_runs, LIMN_ERROR_MESH),
     DAMAGE(mesh_indices, LIMN_ERROR_MESH),
     DAMAGE(mesh_errors, LIMN_ERROR_MESH),
+    DAMAGE(mesh_divided, LIMN_ERROR_MESH),
+    DAMAGE(mesh_divided_overflows, LIMN_ERROR_MESH),
+    DAMAGE(mesh_of_quads, LIMN_ERROR_MESH),
     DAMAGE(mesh_domain, LIMN_ERROR_MESH),
     DAMAGE(control_not_a_number, LIMN_ERROR_CONTROLS),
     DAMAGE(bounds_infinite, LIMN_ERROR_CONTROLS),

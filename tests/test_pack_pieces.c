@@ -130,6 +130,12 @@ static void part_outside(const blob *file) {
 static void part_far_outside(const blob *file) {
     parts_of(file, classes_of(file))[LIMN_FORMAT_PIECE_COUNT - 1] = UINT16_MAX;
 }
+static void part_of_quad(const blob *file) {
+    pieces_of(file)[parts_of(file, classes_of(file))[0]].domain = LIMN_DOMAIN_QUAD;
+}
+static void piece_domain(const blob *file) {
+    pieces_of(file)->domain = LIMN_DOMAIN_COUNT;
+}
 /// The middle one, at a corner.
 static void part_of_other_kind(const blob *file) {
     uint16_t *const parts = parts_of(file, classes_of(file));
@@ -176,6 +182,17 @@ static void points_overflow(const blob *file) {
 }
 static void no_points(const blob *file) {
     set_point_count(file, 0);
+}
+/// Its base vertices are then one point, which no patch has for its corners.
+static void one_divided(const blob *file) {
+    record_of(file, STRIP)->divided_count = 1;
+}
+static void all_divided(const blob *file) {
+    limn_file_mesh *const record = record_of(file, STRIP);
+    record->divided_count = record->point_count - record->control_count - 1;
+}
+static void divided_overflows(const blob *file) {
+    record_of(file, STRIP)->divided_count = UINT32_MAX;
 }
 /// A mesh that is not isolated, of classes in pieces.
 static void point_count_of_dense(const blob *file) {
@@ -256,11 +273,15 @@ static void stencils_descend(const blob *file) {
 static void stencils_outside(const blob *file) {
     stencils_of(file)[1] = UINT32_MAX;
 }
-static void term_outside(const blob *file) {
-    terms_of(file)[3].control = record_of(file, STRIP)->control_count;
+static void term_of_itself(const blob *file) {
+    terms_of(file)[stencils_of(file)[1]].point = record_of(file, STRIP)->control_count + 1;
+}
+/// Not damage.
+static void term_before_itself(const blob *file) {
+    terms_of(file)[stencils_of(file)[1]].point = record_of(file, STRIP)->control_count;
 }
 static void last_term_far_outside(const blob *file) {
-    terms_of(file)[terms_chunk(file)->size / sizeof(limn_file_term) - 1].control = UINT32_MAX;
+    terms_of(file)[terms_chunk(file)->size / sizeof(limn_file_term) - 1].point = UINT32_MAX;
 }
 static void weight_not_a_number(const blob *file) {
     terms_of(file)[0].weight = NAN;
@@ -287,6 +308,8 @@ static const damage damages[] = {
     DAMAGE(columns_overflow, LIMN_ERROR_PIECE),
     DAMAGE(part_outside, LIMN_ERROR_PIECE),
     DAMAGE(part_far_outside, LIMN_ERROR_PIECE),
+    DAMAGE(part_of_quad, LIMN_ERROR_PIECE),
+    DAMAGE(piece_domain, LIMN_ERROR_PIECE),
     DAMAGE(part_of_other_kind, LIMN_ERROR_PIECE),
     DAMAGE(part_without_tangents, LIMN_ERROR_PIECE),
     DAMAGE(column_outside, LIMN_ERROR_PIECE),
@@ -297,6 +320,9 @@ static const damage damages[] = {
     DAMAGE(points_overflow, LIMN_ERROR_MESH),
     DAMAGE(no_points, LIMN_ERROR_MESH),
     DAMAGE(point_not_a_number, LIMN_ERROR_CONTROLS),
+    DAMAGE(one_divided, LIMN_ERROR_INDEX),
+    DAMAGE(all_divided, LIMN_ERROR_MESH),
+    DAMAGE(divided_overflows, LIMN_ERROR_MESH),
     DAMAGE(point_count_of_dense, LIMN_ERROR_RUN),
     DAMAGE(class_of_dense, LIMN_ERROR_RUN),
     DAMAGE(index_of_control, LIMN_ERROR_INDEX),
@@ -313,7 +339,8 @@ static const damage damages[] = {
     DAMAGE(stencils_end_early, LIMN_ERROR_STENCIL),
     DAMAGE(stencils_descend, LIMN_ERROR_STENCIL),
     DAMAGE(stencils_outside, LIMN_ERROR_STENCIL),
-    DAMAGE(term_outside, LIMN_ERROR_STENCIL),
+    DAMAGE(term_of_itself, LIMN_ERROR_STENCIL),
+    DAMAGE(term_before_itself, LIMN_OK),
     DAMAGE(last_term_far_outside, LIMN_ERROR_STENCIL),
     DAMAGE(weight_not_a_number, LIMN_ERROR_STENCIL),
     DAMAGE(last_weight_infinite, LIMN_ERROR_STENCIL),

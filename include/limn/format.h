@@ -22,7 +22,7 @@ extern "C" {
 #endif
 
 #define LIMN_FORMAT_MAGIC "LIMN"
-#define LIMN_FORMAT_VERSION 4u
+#define LIMN_FORMAT_VERSION 5u
 
 /// Alignment of the blob in memory and of every chunk in the file, in bytes.
 #define LIMN_FORMAT_ALIGNMENT 64u
@@ -80,12 +80,12 @@ extern "C" {
 #define LIMN_CHUNK_ERRORS                                                                          \
     LIMN_FORMAT_KIND('E', 'R', 'R', 'S') ///< uint16_t[patch_count][corners]: errors of edges
 
-/// In isolated meshes: uint32_t[point_count - control_count + 1], where the terms of each point
-/// begin, and end; and limn_file_term[].
+/// Where a mesh has more points than control points: uint32_t[point_count - control_count + 1],
+/// where the terms of each of them begin, and end; and limn_file_term[].
 #define LIMN_CHUNK_STENCILS LIMN_FORMAT_KIND('S', 'T', 'N', 'C')
 #define LIMN_CHUNK_TERMS LIMN_FORMAT_KIND('T', 'E', 'R', 'M')
 
-/// In files with normals: limn_file_normal[control_count], uint32_t[] and float[].
+/// In files with normals: limn_file_normal[] of the base vertices, uint32_t[] and float[].
 #define LIMN_CHUNK_NORMALS LIMN_FORMAT_KIND('N', 'R', 'M', 'L')
 #define LIMN_CHUNK_RINGS LIMN_FORMAT_KIND('R', 'I', 'N', 'G')
 #define LIMN_CHUNK_WEIGHTS LIMN_FORMAT_KIND('W', 'G', 'H', 'T')
@@ -140,6 +140,10 @@ typedef struct limn_file_class {
     uint32_t boundary_corners; ///< bit c: corner c lies on a boundary
     uint16_t table_count;      ///< 1: positions; 3: then the tangents along and across
     uint16_t pair_count; ///< 0; or the class is its own mirror image, with this many pairs of slots
+    /// The largest sum, over the rows of positions, of the absolute values of the coefficients below
+    /// 0. Along any direction a row is at most max + negative * (max - min) of the patch's points.
+    float negative;
+    uint32_t reserved; ///< zero
 } limn_file_class;
 
 /// The table of a piece. Its rows are those of the domain down to level 3, in the order of
@@ -152,26 +156,25 @@ typedef struct limn_file_piece {
     uint16_t table_count;   ///< as for a class
 } limn_file_piece;
 
-/// One term of a point of the first level of subdivision, which is c + sum of weight (control - c),
-/// c being the control of its first term; without terms, the origin of the mesh.
+/// One term of a point that is no control point: it is c + sum of weight (p - c), p being the points
+/// of its terms and c that of the first; without terms, the origin of the mesh.
 typedef struct limn_file_term {
-    uint32_t control;
+    uint32_t point; ///< any before the point itself
     float weight;
 } limn_file_term;
 
-/// How the limit normal of a control point follows from the control points around it: two tangents,
-/// each a weighted sum of its ring, relative to it. Files with normals have one per control
-/// point.
+/// How the limit normal of a base vertex follows from the points around it: two tangents, each a
+/// weighted sum of its ring, relative to it. Files with normals have one per base vertex.
 typedef struct limn_file_normal {
-    uint32_t first_ring;   ///< into the ring chunk: `ring_count` control points
-    uint32_t ring_count;   ///< 0: the control point is used by no face
+    uint32_t first_ring;   ///< into the ring chunk: `ring_count` points
+    uint32_t ring_count;   ///< 0: the base vertex is used by no face
     uint32_t first_weight; ///< into the weights chunk: [2][ring_count]
 } limn_file_normal;
 
-/// A further normal of a control point that has several: on a crease one for each side, at a corner
+/// A further normal of a base vertex that has several: on a crease one for each side, at a corner
 /// one for each face.
 typedef struct limn_file_side {
-    uint32_t control;
+    uint32_t point; ///< the base vertex
     limn_file_normal normal;
 } limn_file_side;
 
@@ -219,10 +222,11 @@ typedef struct limn_file_mesh {
     float bounds_max[3];
     float origin[3];      ///< see limn_mesh.origin
     uint32_t hole_count;  ///< base faces without a patch
-    uint32_t point_count; ///< control_count; in isolated meshes with the points of level 1 behind
-    uint32_t
-        divided_count; ///< 0, or the vertices of the mesh that it was divided into: the first of
-                       ///< the points behind the control points
+    uint32_t point_count; ///< control_count + divided_count; in isolated meshes with the points of
+                          ///< a further level behind
+    /// 0: the base vertices, whose faces the patches draw, are the control points. Otherwise the mesh
+    /// has been divided once before, and they are so many points behind these.
+    uint32_t divided_count;
 } limn_file_mesh;
 
 /// Consecutive patches of one class. Patch p of the run has its control indices, by slot, at
@@ -242,14 +246,16 @@ LIMN_STATIC_ASSERT(offsetof(limn_file_header, checksum) == 16, "header.checksum"
 LIMN_STATIC_ASSERT(offsetof(limn_file_header, chunk_count) == 24, "header.chunk_count");
 LIMN_STATIC_ASSERT(sizeof(limn_file_chunk) == 32, "chunk");
 LIMN_STATIC_ASSERT(offsetof(limn_file_chunk, offset) == 16, "chunk.offset");
-LIMN_STATIC_ASSERT(sizeof(limn_file_class) == 32, "class");
+LIMN_STATIC_ASSERT(sizeof(limn_file_class) == 40, "class");
 LIMN_STATIC_ASSERT(offsetof(limn_file_class, valences) == 16, "class.valences");
+LIMN_STATIC_ASSERT(offsetof(limn_file_class, negative) == 32, "class.negative");
 LIMN_STATIC_ASSERT(sizeof(limn_file_normal) == 12, "normal");
 LIMN_STATIC_ASSERT(sizeof(limn_file_side) == 16, "side");
 LIMN_STATIC_ASSERT(sizeof(limn_file_piece) == 16, "piece");
 LIMN_STATIC_ASSERT(sizeof(limn_file_term) == 8, "term");
 LIMN_STATIC_ASSERT(sizeof(limn_file_mesh) == 72, "mesh");
 LIMN_STATIC_ASSERT(offsetof(limn_file_mesh, bounds_min) == 24, "mesh.bounds_min");
+LIMN_STATIC_ASSERT(offsetof(limn_file_mesh, divided_count) == 68, "mesh.divided_count");
 LIMN_STATIC_ASSERT(sizeof(limn_file_run) == 32, "run");
 LIMN_STATIC_ASSERT(offsetof(limn_file_run, first_index) == 16, "run.first_index");
 

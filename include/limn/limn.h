@@ -17,8 +17,9 @@
  * and drawn, patch by patch, with the static indices mesh.domain->indices[3] and base vertex
  * limn_plan_first_vertex().
  *
- * Words: a *control point* is a vertex of the base mesh; a *patch* is what is drawn for one base
- * face; a *row* is one vertex of a patch's grid. "Never fails" means: given valid arguments there
+ * Words: a *control point* is a vertex of the mesh that was baked; a *base vertex* is one whose
+ * faces the patches draw: a control point, but where the mesh had to be divided first; a *patch* is
+ * what is drawn for one base face; a *row* is one vertex of a patch's grid. "Never fails" means: given valid arguments there
  * is no error to report. A caller's mistake aborts in debug builds of the library, and in others
  * returns without doing anything; whoever compiles it with LIMN_ASSERT(condition) defined decides
  * what happens before.
@@ -60,7 +61,7 @@ uint32_t limn_version(void);
     X(LIMN_ERROR_UNKNOWN_CHUNK, "the file needs a feature that this version does not have")        \
     X(LIMN_ERROR_TEXT, "a name or the bake description is not zero-terminated")                    \
     X(LIMN_ERROR_CLASS,                                                                            \
-      "a class has an unknown domain, depth or symmetry, or its table lies outside the tables")    \
+      "a class has an unknown domain, depth, symmetry or bound, or its table lies outside")        \
     X(LIMN_ERROR_TABLE, "a stencil table holds a coefficient that is not finite")                  \
     X(LIMN_ERROR_MESH, "a mesh's counts disagree with the sizes of its chunks")                    \
     X(LIMN_ERROR_CONTROLS, "a control point of the bind pose is not finite")                       \
@@ -71,7 +72,7 @@ uint32_t limn_version(void);
     X(LIMN_ERROR_SLOT, "a patch's slot lies outside its class")                                    \
     X(LIMN_ERROR_PIECE,                                                                            \
       "a piece of a class is of an unknown kind, or lies outside the tables or its class")         \
-    X(LIMN_ERROR_STENCIL, "the stencils of level 1 are out of range, not finite or incomplete")    \
+    X(LIMN_ERROR_STENCIL, "the stencils of points are out of range, not finite or incomplete")     \
     X(LIMN_ERROR_NORMALS, "the data for normals are out of range, not finite or incomplete")
 
 typedef enum limn_result {
@@ -239,8 +240,10 @@ typedef struct limn_mesh {
     const limn_domain *domain;
     const float *controls; ///< [point_count][3]: the bind pose, model units
     uint32_t control_count;
-    uint32_t point_count; ///< control_count; of an isolated mesh more: the points of the first
-                          ///< level of subdivision follow, see limn_mesh_refine()
+    uint32_t point_count; ///< control_count or more: what else patches are made of follows, see
+                          ///< limn_mesh_refine()
+    uint32_t base_first;  ///< the base vertices are points [base_first, base_first + base_count):
+    uint32_t base_count;  ///< 0 and control_count, but where a mesh has been divided
     uint32_t patch_count; ///< one per base face that is drawn
     uint32_t face_count;  ///< base faces, with the holes, which are not drawn
     uint32_t run_count;   ///< patches are ordered by class: runs of one class each
@@ -261,12 +264,12 @@ typedef struct limn_mesh {
     const struct limn_file_piece *pieces;
     const uint16_t *columns;                ///< of the slots of classes in their pieces
     const uint32_t *stencils;               ///< [point_count - control_count + 1] into the terms
-    const struct limn_file_term *terms;     ///< of the points of level 1
+    const struct limn_file_term *terms;     ///< of the points that are no control points
     const struct limn_file_normal *normals; ///< NULL: the mesh was baked without normals
-    const struct limn_file_side *sides;     ///< [normal_count - control_count]
+    const struct limn_file_side *sides;     ///< [normal_count - base_count]
     const uint32_t *corner_normals; ///< [patch_count][corner_count] the normals of the corners;
-                                    ///< NULL: those of the control points
-    uint32_t normal_count; ///< of limn_mesh_control_normals(): one per control point, and more on
+                                    ///< NULL: those of the base vertices
+    uint32_t normal_count; ///< of limn_mesh_control_normals(): one per base vertex, and more on
                            ///< creases; 0 without normals
     const uint32_t *ring;
     const float *weights;
@@ -295,8 +298,9 @@ typedef struct limn_patch_face {
 /// The base face of patch `patch_index` < mesh->patch_count. Never fails; any thread.
 limn_patch_face limn_mesh_face(const limn_mesh *mesh, uint32_t patch_index);
 
-/// The control points at the corners of patch `patch_index` < mesh->patch_count, in the order of
-/// the patch's corners, rows 0, 1, …: where each of them has its limit. Never fails; any thread.
+/// The base vertices at the corners of patch `patch_index` < mesh->patch_count, in the order of the
+/// patch's corners, rows 0, 1, …: where each of them has its limit. As indices of points: from
+/// mesh->base_first on. Never fails; any thread.
 ///
 /// corners  out: [domain->corner_count], the rest is left alone
 void limn_mesh_corners(const limn_mesh *mesh, uint32_t patch_index,
@@ -407,10 +411,9 @@ typedef struct limn_lod_desc {
 size_t limn_plan_size(const limn_mesh *mesh);
 
 /// Plans a frame: levels for all edges, and of the patches that may be seen in any view, their
-/// templates, weights and places. A patch is left out where all its control points are outside of
-/// one plane of every view: the surface lies within their convex hull, so this is exact under
-/// animation too. (Where creases share their sharpness, it may leave the hull by a fraction of an
-/// edge.)
+/// templates, weights and places. A patch is left out where all its points are outside of one plane
+/// of every view: the surface lies within their convex hull, so this is exact under animation too.
+/// Where coefficients are negative, they must be as far outside as the surface may leave the hull.
 /// The result is the same for whichever thread, and depends on nothing else. Does not allocate; any
 /// thread, with memory of its own. A frame of more than INT32_MAX vertices has no plan: 0 patches.
 ///
@@ -470,22 +473,22 @@ typedef struct limn_output {
     bool streaming;
 } limn_output;
 
-/// Fills in the points of the first level of subdivision, behind the control points of an isolated
-/// mesh: once a frame, before it is planned and evaluated. Nothing is to be done for other meshes,
-/// nor for the bind pose in mesh->controls, which has them. Does not allocate, never fails; any
-/// thread. The same input gives the same bits with every kernel.
+/// Fills in the points behind the control points, of an isolated or a divided mesh: once a frame,
+/// before its normals, its plan and its vertices. Nothing is to be done for other meshes, nor for
+/// the bind pose in mesh->controls, which has them. Does not allocate, never fails; any thread. The
+/// same input gives the same bits with every kernel.
 ///
 /// controls  [mesh->point_count][3] floats, model units: the first control_count are read, and the
 ///           rest are written
 void limn_mesh_refine(const limn_mesh *mesh, float *controls);
 
-/// Limit normals of all control points, and then of further sides of creases and faces at corners,
-/// which patches take by mesh->corner_normals: unit vectors, towards the side from which faces are
-/// counter-clockwise. Where the surface has no tangent plane, and at control points that no face
-/// uses, the normal is (0, 0, 1). Does not allocate, never fails; any thread. The mesh must have
-/// normals.
+/// Limit normals of all base vertices, normal 0 being that of mesh->base_first, and then of further
+/// sides of creases and faces at corners, which patches take by mesh->corner_normals: unit vectors,
+/// towards the side from which faces are counter-clockwise. Where the surface has no tangent plane,
+/// and at base vertices that no face uses, the normal is (0, 0, 1). Does not allocate, never fails;
+/// any thread. The mesh must have normals.
 ///
-/// controls  [mesh->control_count][3] floats, model units
+/// controls  [mesh->base_first + mesh->base_count][3] floats, model units; of a divided mesh refined
 /// normals   out: [mesh->normal_count][3] floats; must not overlap the controls
 void limn_mesh_control_normals(const limn_mesh *mesh, const float *controls, float *normals);
 

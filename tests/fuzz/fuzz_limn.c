@@ -85,7 +85,7 @@ static void visit(const limn_mesh *mesh) {
         uint32_t corners[LIMN_CORNER_MAX];
         limn_mesh_corners(mesh, p, corners);
         for (uint32_t c = 0; c < mesh->domain->corner_count; c++)
-            FUZZ_REQUIRE(corners[c] < mesh->control_count);
+            FUZZ_REQUIRE(corners[c] - mesh->base_first < mesh->base_count);
         FUZZ_REQUIRE(limn_mesh_face(mesh, p).face < mesh->face_count);
     }
     FUZZ_REQUIRE(mesh->name && strlen(mesh->name) < SIZE_MAX);

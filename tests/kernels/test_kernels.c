@@ -182,6 +182,7 @@ static void make(made *m, limn_domain_kind domain, bool in_pieces) {
     }
     m->mesh = (limn_mesh){.domain = m->mesh.domain,
                           .control_count = in_pieces ? 0 : CONTROLS, // all are points of level 1
+                          .base_count = in_pieces ? 0 : CONTROLS,
                           .point_count = CONTROLS,
                           .patch_count = CLASSES * PATCHES,
                           .run_count = CLASSES,
@@ -947,7 +948,7 @@ static void check_point(const stencils *s, uint32_t p, const float *points) {
     for (int axis = 0; axis < 3; axis++) {
         double sum = p == 0 ? (double)s->mesh.origin[axis] : 0, magnitude = 0;
         for (uint32_t t = s->first[p]; t < s->first[p + 1]; t++) {
-            const double at = (double)points[3 * (size_t)s->terms[t].control + (size_t)axis];
+            const double at = (double)points[3 * (size_t)s->terms[t].point + (size_t)axis];
             sum += (double)s->terms[t].weight * at;
             magnitude += fabs((double)s->terms[t].weight * at) + fabs(at);
         }
