@@ -16,31 +16,57 @@
 extern "C" {
 #endif
 
-/// A triangle mesh and the grid that is asked for. Unused positions are fine.
+/// What the surface is, and what its patches are.
+typedef enum limni_opensubdiv_scheme {
+    LIMNI_OPENSUBDIV_LOOP,    ///< triangles only; patches of the triangle domain
+    LIMNI_OPENSUBDIV_CATMARK, ///< Catmull-Clark; patches of the quad domain
+    LIMNI_OPENSUBDIV_BILINEAR ///< bilinear faces, with the same patches; sharpness has no effect
+} limni_opensubdiv_scheme;
+
+/// A mesh, its patches and the grid that is asked for. Unused positions are fine. Zero stands for
+/// whole triangles in Loop's scheme without tags.
+///
+/// Faces are patches with the face's corner c as their corner c. Divided, with Catmull-Clark and
+/// bilinear, a face of n corners is n patches, in the order of its corners k. Patch k has its corner
+/// 0 at the face's corner k, corner 1 in the middle of edge k, which leads to corner k + 1, corner 2
+/// in the middle of the face, and corner 3 in the middle of edge k - 1: of a quad a quarter, of
+/// another face the ptex face. Faces that are not quads have no other patches.
 typedef struct limni_opensubdiv_mesh {
-    const float *positions; ///< [position_count][3]; may be NULL for the stencil count
-    const uint32_t *faces;  ///< [face_count][3], counter-clockwise
+    const float *positions;     ///< [position_count][3]; may be NULL for the stencil count
+    const uint32_t *faces;      ///< the corners of all faces, one face after the other,
+                                ///< counter-clockwise
+    const uint32_t *face_sizes; ///< [face_count] corners of each; NULL: all triangles
     uint32_t position_count;
-    uint32_t face_count; ///< at most a million
+    uint32_t face_count;
+    limni_opensubdiv_scheme scheme;
+    bool divided; ///< whether a patch is not a face, but what one step of subdivision makes at a
+                  ///< corner of it
     limn_boundary boundary;
-    uint32_t level; ///< of the grid, 0 to LIMN_LEVEL_MAX; no default: 0 is the corners alone
-    const float *edge_sharpness; ///< [face_count][3] of the edges from corners 0, 1 and 2; NULL: 0
+    uint32_t level; ///< of the grid of a patch, 0 to LIMN_LEVEL_MAX; no default: 0 is the corners
+                    ///< alone
+    const float *edge_sharpness;   ///< of the edges that begin at each of `faces`; NULL: 0
     const float *vertex_sharpness; ///< [position_count]; NULL: 0
     const bool *holes;             ///< [face_count]; NULL: none
     limn_creasing creasing;
 } limni_opensubdiv_mesh;
 
-/// Limit positions of Loop's scheme at every grid vertex of every face, in double precision.
-/// Without sharpness and holes: uniform refinement to mesh->level, then PrimvarRefiner::Limit.
-/// At level 4 it takes some 60 KB and 0.1 ms for each face. Otherwise Bfr's surfaces at level
-/// 10, where all sharpness has decayed; with Chaikin's method, in which they are wrong in
-/// places, again uniform refinement, to the level where it has. What is not manifold is sharp.
-/// Returns false, with a text in `error`, when an index is out of range, when OpenSubdiv refuses,
-/// or when out of memory.
+/// How many patches the mesh has; at most a million are answered for.
+uint32_t limni_opensubdiv_patch_count(const limni_opensubdiv_mesh *mesh);
+
+/// Limit positions at every grid vertex of every patch, in double precision: true limits, for which
+/// all sharpness has decayed. Without sharpness and holes: uniform refinement to mesh->level, then
+/// PrimvarRefiner::Limit. At level 4 it takes some 60 KB and 0.1 ms for each patch. Otherwise, and
+/// always with bilinear faces, whose vertices have no tangents: Bfr's surfaces at level 10, where
+/// all sharpness has decayed; with Chaikin's method, in which they are wrong in places, again
+/// uniform refinement, to the level where it has. What is not manifold is sharp. Where OpenSubdiv's
+/// limits depend on the level, at the ends of creases and with Catmull-Clark at vertices of two
+/// faces, they are those of level 15; at the latter there need be no tangent plane.
+/// Returns false, with a text in `error`, when an index is out of range, when the scheme or the
+/// patches cannot have a face of so many corners, when OpenSubdiv refuses or is known to fail, or
+/// when out of memory.
 ///
-/// limit             out: [face_count][domain->row_counts[level]], the rows of the triangle domain
-///                   with corner c of the face as corner c of the domain; not a number where
-///                   OpenSubdiv has no surface
+/// limit             out: [patch_count][domain->row_counts[level]], the rows of the domain; not a
+///                   number where OpenSubdiv has no surface
 /// tangents          out, or NULL: two tangents at the same places, of any length, of the face's
 ///                   own side of a crease, or with Chaikin's method of either; their cross product
 ///                   is the normal
@@ -55,7 +81,8 @@ typedef struct limni_opensubdiv_stencils {
     uint64_t byte_count; ///< sizes, offsets, indices and weights
 } limni_opensubdiv_stencils;
 
-/// Builds OpenSubdiv's limit stencils for the grid of every face and measures them. They come from
+/// Builds OpenSubdiv's limit stencils for the grid of every face and measures them; of Loop's scheme
+/// only. They come from
 /// adaptive refinement to level 6 (from level 4 on they equal limni_opensubdiv_limit() to rounding,
 /// except at rounded corners of the boundary, where 1e-7 of the diagonal is left at level 6). Fails
 /// as limni_opensubdiv_limit() does.

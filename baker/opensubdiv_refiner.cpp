@@ -6,7 +6,9 @@
 #include <opensubdiv/far/error.h>
 #include <opensubdiv/far/topologyDescriptor.h>
 
+#include <algorithm>
 #include <climits>
+#include <cstdlib>
 #include <stdexcept>
 
 namespace Far = OpenSubdiv::Far;
@@ -49,23 +51,54 @@ void require(bool condition, const std::string &text) {
 
 namespace {
 
-/// OpenSubdiv counts in int, unchecked: 768 corners of level-4 faces and some 1800 stencil weights
-/// for each base face.
-constexpr uint32_t FACE_COUNT_MAX = 1000000;
+/// OpenSubdiv counts in int, unchecked: 1024 corners of level-4 faces and some 1800 stencil weights
+/// for each patch.
+constexpr uint32_t PATCH_COUNT_MAX = 1000000;
+
+[[noreturn]] void refuse_face(size_t face, const char *text) {
+    require(false, "face " + std::to_string(face) + text);
+    std::abort();
+}
 
 /// OpenSubdiv trusts its indices: it crashes on what this refuses by name, or makes little of it.
+void require_face(const limni_opensubdiv_mesh &mesh, size_t face, const uint32_t *corners) {
+    const uint32_t size = face_size(mesh, face);
+    const uint32_t *const end = corners + size;
+    const uint32_t needed = mesh.scheme == LIMNI_OPENSUBDIV_LOOP ? 3 : mesh.divided ? 0 : 4;
+    if (size < 3 || (needed && size != needed)) {
+        refuse_face(face, needed == 4   ? " is not a quad, and faces are not divided"
+                          : needed == 3 ? " is not a triangle"
+                                        : " has too few corners");
+    }
+    if (std::any_of(corners, end, [&](uint32_t v) { return v >= mesh.position_count; }))
+        refuse_face(face, " has an index out of range");
+    for (const uint32_t *corner = corners; corner < end; corner++) {
+        if (std::find(corner + 1, end, *corner) != end) refuse_face(face, " uses a vertex twice");
+    }
+}
+
 void require_faces(const limni_opensubdiv_mesh &mesh) {
     require(mesh.position_count > 0 && mesh.position_count <= INT_MAX, "too few or many positions");
-    require(mesh.face_count > 0 && mesh.face_count <= FACE_COUNT_MAX, "too few or many faces");
+    require(mesh.face_count > 0 && mesh.face_count <= PATCH_COUNT_MAX &&
+                limni_opensubdiv_patch_count(&mesh) <= PATCH_COUNT_MAX,
+            "too few or many faces");
     require(mesh.level <= LIMN_LEVEL_MAX, "level " + std::to_string(mesh.level) + " is too fine");
+    require(!mesh.divided || mesh.scheme != LIMNI_OPENSUBDIV_LOOP, "Loop's faces are not divided");
+    const uint32_t *corners = mesh.faces;
     for (size_t face = 0; face < mesh.face_count; face++) {
-        const uint32_t *v = mesh.faces + 3 * face;
-        const bool in_range =
-            v[0] < mesh.position_count && v[1] < mesh.position_count && v[2] < mesh.position_count;
-        const bool distinct = v[0] != v[1] && v[1] != v[2] && v[2] != v[0];
-        if (!in_range || !distinct)
-            require(false, "face " + std::to_string(face) +
-                               (in_range ? " uses a vertex twice" : " has an index out of range"));
+        require_face(mesh, face, corners);
+        corners += face_size(mesh, face);
+    }
+}
+
+Sdc::SchemeType scheme_type(const limni_opensubdiv_mesh &mesh) {
+    switch (mesh.scheme) {
+    case LIMNI_OPENSUBDIV_CATMARK:
+        return Sdc::SCHEME_CATMARK;
+    case LIMNI_OPENSUBDIV_BILINEAR:
+        return Sdc::SCHEME_BILINEAR;
+    default:
+        return Sdc::SCHEME_LOOP;
     }
 }
 
@@ -95,11 +128,13 @@ struct tags {
     std::vector<float> crease_weights, corner_weights;
 
     explicit tags(const limni_opensubdiv_mesh &mesh) {
-        for (size_t h = 0; mesh.edge_sharpness && h < size_t(3) * mesh.face_count; h++) {
-            if (!(mesh.edge_sharpness[h] > 0)) continue;
-            crease_ends.push_back(Far::Index(mesh.faces[h]));
-            crease_ends.push_back(Far::Index(mesh.faces[h % 3 == 2 ? h - 2 : h + 1]));
-            crease_weights.push_back(mesh.edge_sharpness[h]);
+        size_t first = 0;
+        for (uint32_t face = 0; mesh.edge_sharpness && face < mesh.face_count; face++) {
+            const uint32_t size = face_size(mesh, face);
+            for (uint32_t c = 0; c < size; c++)
+                add_crease(mesh.faces[first + c], mesh.faces[first + (c + 1) % size],
+                           mesh.edge_sharpness[first + c]);
+            first += size;
         }
         for (uint32_t v = 0; mesh.vertex_sharpness && v < mesh.position_count; v++) {
             if (!(mesh.vertex_sharpness[v] > 0)) continue;
@@ -109,6 +144,13 @@ struct tags {
         for (uint32_t face = 0; mesh.holes && face < mesh.face_count; face++) {
             if (mesh.holes[face]) holes.push_back(Far::Index(face));
         }
+    }
+
+    void add_crease(uint32_t a, uint32_t b, float sharpness) {
+        if (!(sharpness > 0)) return;
+        crease_ends.push_back(Far::Index(a));
+        crease_ends.push_back(Far::Index(b));
+        crease_weights.push_back(sharpness);
     }
 
     void describe(Far::TopologyDescriptor &descriptor) const {
@@ -125,10 +167,23 @@ struct tags {
 
 } // namespace
 
+uint32_t face_size(const limni_opensubdiv_mesh &mesh, size_t face) {
+    return mesh.face_sizes ? mesh.face_sizes[face] : 3;
+}
+
+size_t corner_count(const limni_opensubdiv_mesh &mesh) {
+    size_t count = 0;
+    for (size_t face = 0; face < mesh.face_count; face++)
+        count += face_size(mesh, face);
+    return count;
+}
+
 refiner_pointer create_refiner(const limni_opensubdiv_mesh &mesh) {
     require_faces(mesh);
-    const std::vector<int> face_sizes(mesh.face_count, 3);
-    const std::vector<Far::Index> corners(mesh.faces, mesh.faces + size_t(3) * mesh.face_count);
+    std::vector<int> face_sizes;
+    for (size_t face = 0; face < mesh.face_count; face++)
+        face_sizes.push_back(int(face_size(mesh, face)));
+    const std::vector<Far::Index> corners(mesh.faces, mesh.faces + corner_count(mesh));
     Far::TopologyDescriptor descriptor;
     descriptor.numVertices = int(mesh.position_count);
     descriptor.numFaces = int(mesh.face_count);
@@ -138,7 +193,7 @@ refiner_pointer create_refiner(const limni_opensubdiv_mesh &mesh) {
     of_mesh.describe(descriptor);
 
     using factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-    factory::Options options(Sdc::SCHEME_LOOP, scheme_options(mesh));
+    factory::Options options(scheme_type(mesh), scheme_options(mesh));
     options.validateFullTopology = true;
     refiner_pointer refiner(factory::Create(descriptor, options));
     require(refiner != nullptr, "OpenSubdiv refused the mesh");

@@ -55,6 +55,10 @@ using refiner_pointer = std::unique_ptr<OpenSubdiv::Far::TopologyRefiner>;
 /// it.
 refiner_pointer create_refiner(const limni_opensubdiv_mesh &mesh);
 
+/// How many corners a face has, and all of them.
+uint32_t face_size(const limni_opensubdiv_mesh &mesh, size_t face);
+size_t corner_count(const limni_opensubdiv_mesh &mesh);
+
 template <typename item_type> uint64_t bytes_of(const std::vector<item_type> &items) {
     return uint64_t(items.size()) * sizeof(item_type);
 }
