@@ -3,10 +3,10 @@
 
 #include <string.h>
 
-void limni_place_points(const limni_stencils *stencils, float (*points)[3], uint32_t first,
+void limni_place_points(const limni_stencils *stencils, float (*points)[3], uint32_t control_count,
                         uint32_t count) {
-    const limn_mesh view = {.control_count = first,
-                            .point_count = first + count,
+    const limn_mesh view = {.control_count = control_count,
+                            .point_count = control_count + count,
                             .stencils = stencils->offsets,
                             .terms = stencils->terms,
                             .kernels = limn_kernels_select(LIMN_ISA_ALL, LIMN_FAMILY_REPRODUCIBLE)};

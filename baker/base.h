@@ -25,10 +25,10 @@ limn_bake_status limni_base_begin(limni_context *context, const limni_mesh *sour
                                   const limni_rules *rules, limni_base *base);
 void limni_base_end(limni_context *context, limni_base *base);
 
-/// Points from those before them, as the runtime computes them.
+/// Points behind control points, as the runtime computes them.
 ///
-/// points  [first + count][3], of which those from `first` on are written
-void limni_place_points(const limni_stencils *stencils, float (*points)[3], uint32_t first,
+/// points  [control_count + count][3], of which the last are written
+void limni_place_points(const limni_stencils *stencils, float (*points)[3], uint32_t control_count,
                         uint32_t count);
 
 #endif

@@ -284,8 +284,7 @@ static limn_bake_status append_points(limni_context *context, const limni_stenci
         all->terms[term + t] =
             (limn_file_term){first + added->terms[t].point, added->terms[t].weight};
     patches->record.point_count = before + count;
-    const limni_stencils own = {all->offsets + point, all->terms};
-    limni_place_points(&own, controls, before, count);
+    limni_place_points(all, controls, patches->record.control_count, point + count);
     return LIMN_BAKE_OK;
 }
 
