@@ -112,11 +112,17 @@ typedef struct limni_ring {
     const float *weights;   ///< [2][count], which apply relative to the base vertex
 } limni_ring;
 
+/// The point that a normal stands at.
+static inline uint32_t limni_point_of(const limn_mesh *mesh, uint32_t normal) {
+    return normal < mesh->base_count ? mesh->base_first + normal
+                                     : mesh->sides[normal - mesh->base_count].point;
+}
+
 static inline limni_ring limni_ring_of(const limn_mesh *mesh, uint32_t normal) {
     const limn_file_side *const side =
         normal < mesh->base_count ? NULL : &mesh->sides[normal - mesh->base_count];
     const limn_file_normal *const record = side ? &side->normal : &mesh->normals[normal];
-    return (limni_ring){.point = side ? side->point : mesh->base_first + normal,
+    return (limni_ring){.point = limni_point_of(mesh, normal),
                         .count = record->ring_count,
                         .points = mesh->ring + record->first_ring,
                         .weights = mesh->weights + record->first_weight};
@@ -131,6 +137,9 @@ struct limn_kernels {
     void (*refine)(const limn_mesh *mesh, float *controls);
     /// See limn_mesh_control_normals().
     void (*control_normals)(const limn_mesh *mesh, const float *controls, float *normals);
+    /// See limn_pose_points(), and where there is a mesh, limn_pose_normals().
+    void (*skin)(const limn_pose *pose, const limn_mesh *mesh, const float *src, uint32_t begin,
+                 uint32_t end, float *dst);
 };
 
 /// Those that are built are listed in kernels.c.

@@ -7,6 +7,7 @@
 #include "morph.h"
 #include "pieces.h"
 #include "refine_body.h"
+#include "skin_body.h"
 #include "stores.h"
 
 #if defined(__FAST_MATH__)

@@ -64,13 +64,28 @@ static inline lanes inverse_root(lanes a) {
     return root;
 }
 
-/// Unit normals from the two tangents of rows [row, row + count), in place of the first. Along a
-/// shared edge the neighbour has both tangents negated, bit for bit, so that products, and all that
-/// follows, are the same but for the signs of zeros; adding +0 makes those alike. Where the cross
-/// product is too short or too long to be squared, the normal is (0, 0, 1).
-static inline void find_normals(const vectors *across, size_t row, size_t count, vectors *along) {
+/// Makes vectors unit vectors without a -0; those too short or too long to be squared become
+/// (0, 0, 1).
+static inline void make_unit_normals(lanes *x, lanes *y, lanes *z) {
     const lanes zero = lanes_zero(), one = lanes_splat(1.0f);
     const lanes least = lanes_splat(LEAST_SQUARE), most = lanes_splat(MOST_SQUARE);
+    const lanes square = lanes_add(lanes_add(lanes_multiply(*x, *x), lanes_multiply(*y, *y)),
+                                   lanes_multiply(*z, *z));
+    const lanes root = inverse_root(square);
+    const lanes scale = lanes_select_greater(
+        square, least, lanes_select_greater(most, square, root, zero), zero);
+    const lanes u = lanes_add(lanes_multiply(*x, scale), zero);
+    const lanes v = lanes_add(lanes_multiply(*y, scale), zero);
+    const lanes w = lanes_add(lanes_multiply(*z, scale), zero);
+    *x = lanes_select_greater(scale, zero, u, zero);
+    *y = lanes_select_greater(scale, zero, v, zero);
+    *z = lanes_select_greater(scale, zero, w, one);
+}
+
+/// Unit normals from the two tangents of rows [row, row + count), in place of the first. Along a
+/// shared edge the neighbour has both tangents negated, bit for bit, so that products, and all that
+/// follows, are the same but for the signs of zeros; make_unit_normals() makes those alike.
+static inline void find_normals(const vectors *across, size_t row, size_t count, vectors *along) {
     for (const size_t end = row + count; row < end; row += LANES_WIDTH) {
         const lanes ax = lanes_load_any(&along->axes[0][row]);
         const lanes ay = lanes_load_any(&along->axes[1][row]);
@@ -78,20 +93,13 @@ static inline void find_normals(const vectors *across, size_t row, size_t count,
         const lanes bx = lanes_load_any(&across->axes[0][row]);
         const lanes by = lanes_load_any(&across->axes[1][row]);
         const lanes bz = lanes_load_any(&across->axes[2][row]);
-        const lanes x = lanes_subtract(lanes_multiply(ay, bz), lanes_multiply(az, by));
-        const lanes y = lanes_subtract(lanes_multiply(az, bx), lanes_multiply(ax, bz));
-        const lanes z = lanes_subtract(lanes_multiply(ax, by), lanes_multiply(ay, bx));
-        const lanes square =
-            lanes_add(lanes_add(lanes_multiply(x, x), lanes_multiply(y, y)), lanes_multiply(z, z));
-        const lanes root = inverse_root(square);
-        const lanes scale = lanes_select_greater(
-            square, least, lanes_select_greater(most, square, root, zero), zero);
-        const lanes u = lanes_add(lanes_multiply(x, scale), zero);
-        const lanes v = lanes_add(lanes_multiply(y, scale), zero);
-        const lanes w = lanes_add(lanes_multiply(z, scale), zero);
-        lanes_store(&along->axes[0][row], lanes_select_greater(scale, zero, u, zero));
-        lanes_store(&along->axes[1][row], lanes_select_greater(scale, zero, v, zero));
-        lanes_store(&along->axes[2][row], lanes_select_greater(scale, zero, w, one));
+        lanes x = lanes_subtract(lanes_multiply(ay, bz), lanes_multiply(az, by));
+        lanes y = lanes_subtract(lanes_multiply(az, bx), lanes_multiply(ax, bz));
+        lanes z = lanes_subtract(lanes_multiply(ax, by), lanes_multiply(ay, bx));
+        make_unit_normals(&x, &y, &z);
+        lanes_store(&along->axes[0][row], x);
+        lanes_store(&along->axes[1][row], y);
+        lanes_store(&along->axes[2][row], z);
     }
 }
 

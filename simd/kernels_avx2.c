@@ -10,4 +10,5 @@ const limn_kernels limni_kernels_avx2 = {
     .evaluate = evaluate_run,
     .refine = refine_mesh,
     .control_normals = find_control_normals,
+    .skin = skin_range,
 };

@@ -11,4 +11,5 @@ const limn_kernels limni_kernels_neon_fast = {
     .evaluate = evaluate_run,
     .refine = refine_mesh,
     .control_normals = find_control_normals,
+    .skin = skin_range,
 };

@@ -64,6 +64,9 @@ static inline lanes lanes_subtract(lanes a, lanes b) {
 static inline lanes lanes_multiply(lanes a, lanes b) {
     return _mm256_mul_ps(a, b);
 }
+static inline lanes lanes_divide(lanes a, lanes b) {
+    return _mm256_div_ps(a, b);
+}
 #ifdef LANES_FUSED
 /// a * b + c, rounded once.
 static inline lanes lanes_multiply_add(lanes a, lanes b, lanes c) {

@@ -47,6 +47,9 @@ static inline lanes lanes_subtract(lanes a, lanes b) {
 static inline lanes lanes_multiply(lanes a, lanes b) {
     return vmulq_f32(a, b);
 }
+static inline lanes lanes_divide(lanes a, lanes b) {
+    return vdivq_f32(a, b);
+}
 #ifdef LANES_FUSED
 /// a * b + c, rounded once.
 static inline lanes lanes_multiply_add(lanes a, lanes b, lanes c) {

@@ -50,6 +50,9 @@ static inline lanes lanes_subtract(lanes a, lanes b) {
 static inline lanes lanes_multiply(lanes a, lanes b) {
     return a * b;
 }
+static inline lanes lanes_divide(lanes a, lanes b) {
+    return a / b;
+}
 /// a * b + c, rounded twice.
 static inline lanes lanes_multiply_add(lanes a, lanes b, lanes c) {
     return a * b + c;

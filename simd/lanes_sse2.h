@@ -56,6 +56,9 @@ static inline lanes lanes_subtract(lanes a, lanes b) {
 static inline lanes lanes_multiply(lanes a, lanes b) {
     return _mm_mul_ps(a, b);
 }
+static inline lanes lanes_divide(lanes a, lanes b) {
+    return _mm_div_ps(a, b);
+}
 /// a * b + c, rounded twice.
 static inline lanes lanes_multiply_add(lanes a, lanes b, lanes c) {
     return _mm_add_ps(_mm_mul_ps(a, b), c);

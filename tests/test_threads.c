@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Several threads evaluate ranges of one plan, and plan from one mesh: the bytes are those of one
- * thread. tests/threads_test.sh runs this under ThreadSanitizer, for which threads are plain
+ * Several threads evaluate ranges of one plan, plan from one mesh, and move ranges of its control
+ * points: the bytes are those of one thread. tests/threads_test.sh runs this under ThreadSanitizer, for which threads are plain
  * pthreads: OpenMP's library is not made for it.
  *
  *     test_threads FILE.limn            a mesh with normals
@@ -148,6 +148,56 @@ static void test_planning(void) {
     CHECK(plans[0].level > plans[0].patches[0].level || plans[0].level > 1);
 }
 
+// ---- Moving control points
+
+/// Morph targets and a skin, point by point.
+typedef struct motion {
+    const limn_morph_targets *targets;
+    const limn_pose *pose;
+    float *points, *normals; ///< out
+} motion;
+
+static void move_range(void *state, uint32_t begin, uint32_t end) {
+    static const float weights[1] = {0.5f};
+    const motion *const m = state;
+    limn_morph_points(m->targets, weights, mesh.controls, begin, end, m->points);
+    limn_pose_points(m->pose, m->points, begin, end, m->points);
+    limn_pose_normals(m->pose, &mesh, control_normals, begin, end, m->normals);
+}
+
+static void compare_motion(const limn_morph_targets *targets, const limn_pose *pose) {
+    const uint32_t count = mesh.control_count;
+    float *const arrays = calloc(count, 4 * sizeof(float[3]));
+    if (!arrays) abort();
+    motion alone = {targets, pose, arrays, arrays + 3 * count};
+    motion together = {targets, pose, arrays + 6 * count, arrays + 9 * count};
+    move_range(&alone, 0, count);
+    run_loop(&(loop){.body = move_range, .state = &together, .count = count, .step = 5});
+    CHECK(memcmp(alone.points, together.points, 2 * count * sizeof(float[3])) == 0);
+    free(arrays);
+}
+
+/// The one target moves all points, and the one joint, too.
+static void test_motion(void) {
+    static const float matrix[12] = {0, -1, 0, 2, 1, 0, 0, 3, 0, 0, 1, 4};
+    const uint32_t count = mesh.control_count, first[2] = {0, count};
+    uint32_t *const points = calloc(count, sizeof *points);
+    uint16_t *const joints = calloc(count, sizeof *joints);
+    float *const weights = calloc(count, sizeof *weights);
+    if (!points || !joints || !weights) abort();
+    for (uint32_t p = 0; p < count; p++)
+        points[p] = p, weights[p] = 1;
+    const limn_morph_targets targets = {count, 1, first, points, mesh.controls};
+    const limn_skin skin = {count, 1, 1, joints, weights, mesh.kernels};
+    limn_dual_quaternion quaternion;
+    limn_dual_quaternions_make(matrix, 1, &quaternion);
+    compare_motion(&targets, &(limn_pose){.skin = &skin, .matrices = matrix});
+    compare_motion(&targets, &(limn_pose){.skin = &skin, .dual_quaternions = &quaternion});
+    free(points);
+    free(joints);
+    free(weights);
+}
+
 // ---- All kernels
 
 static void test_kernels(uint32_t isa, limn_family family) {
@@ -155,6 +205,7 @@ static void test_kernels(uint32_t isa, limn_family family) {
     const limn_plan uniform = limn_plan_uniform(&mesh, 3);
     test_plan(&uniform);
     test_plan(&plans[0]);
+    test_motion();
 }
 
 static bool open_mesh(const char *path, limni_blob_file *file) {

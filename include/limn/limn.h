@@ -45,7 +45,7 @@ uint32_t limn_version(void);
 // -------------------------------------------------------------------------------------------------
 // Results
 
-/// Why a blob was refused: name, then what happened and what to do.
+/// Why a blob, or what animates a mesh, was refused: name, then what happened and what to do.
 #define LIMN_RESULTS(X)                                                                            \
     X(LIMN_OK, "no error")                                                                         \
     X(LIMN_ERROR_HOST, "this machine is not little-endian; .limn files are")                       \
@@ -73,7 +73,14 @@ uint32_t limn_version(void);
     X(LIMN_ERROR_PIECE,                                                                            \
       "a piece of a class is of an unknown kind, or lies outside the tables or its class")         \
     X(LIMN_ERROR_STENCIL, "the stencils of points are out of range, not finite or incomplete")     \
-    X(LIMN_ERROR_NORMALS, "the data for normals are out of range, not finite or incomplete")
+    X(LIMN_ERROR_NORMALS, "the data for normals are out of range, not finite or incomplete")       \
+    X(LIMN_ERROR_SKIN, "a skin has no joints, or not 1 to 8 influences for each point")            \
+    X(LIMN_ERROR_JOINT, "an influence on a point names a joint that does not exist")               \
+    X(LIMN_ERROR_WEIGHT, "the weight of an influence is negative or not finite")                   \
+    X(LIMN_ERROR_WEIGHT_SUM,                                                                       \
+      "the weights of a point do not sum to 1; limn_skin_normalise() mends that unless all are 0") \
+    X(LIMN_ERROR_MORPH_POINT, "the points of a morph target are out of range or do not ascend")    \
+    X(LIMN_ERROR_MORPH_DELTA, "a movement of a morph target is not finite")
 
 typedef enum limn_result {
 #define LIMN_RESULT_NAME(name, text) name,
@@ -305,6 +312,147 @@ limn_patch_face limn_mesh_face(const limn_mesh *mesh, uint32_t patch_index);
 /// corners  out: [domain->corner_count], the rest is left alone
 void limn_mesh_corners(const limn_mesh *mesh, uint32_t patch_index,
                        uint32_t corners[LIMN_CORNER_MAX]);
+
+// -------------------------------------------------------------------------------------------------
+// Animation
+//
+// What moves control points before a frame is planned: morph targets, then a skin. Each may be
+// shared by threads that take ranges. limn_mesh_refine() and limn_mesh_control_normals() come
+// after them. The same input gives the same bits with every kernel of either family, so control
+// points with the same data, such as those of sheets, stay together in every bit.
+
+#define LIMN_INFLUENCE_MAX 8
+
+/// Which joints move the points of a mesh, and how much. The caller's, as it may come from anywhere:
+/// limn_skin_check() tells whether it is right, and nothing later does. An influence that is not
+/// needed has weight 0, and any joint.
+typedef struct limn_skin {
+    uint32_t point_count;     ///< the control_count of the mesh
+    uint32_t joint_count;     ///< from 1
+    uint32_t influence_count; ///< on each point, 1 to LIMN_INFLUENCE_MAX
+    const uint16_t *joints;   ///< [point_count][influence_count] below joint_count
+    const float *weights;     ///< [point_count][influence_count] not negative; those of a point sum
+                              ///< to 1
+    const limn_kernels *kernels; ///< those of the mesh, or from limn_kernels_select()
+} limn_skin;
+
+/// A place in a skin.
+typedef struct limn_skin_place {
+    uint32_t point;
+    uint32_t influence; ///< on the point; 0 where it is about all of them
+} limn_skin_place;
+
+/// Makes the weights of each point sum to 1, and orders its influences: the strongest first, of
+/// equal ones that of the lower joint, and last those without weight, whose joint becomes that of the
+/// first. Does not allocate; any thread. What is refused is left as it is, and so is what follows:
+/// LIMN_ERROR_WEIGHT, or LIMN_ERROR_WEIGHT_SUM where all weights are 0.
+///
+/// influence_count  on each point, 1 to LIMN_INFLUENCE_MAX
+/// joints, weights  [point_count][influence_count]
+/// place            out: the first that is refused, if any is; or NULL
+limn_result limn_skin_normalise(uint32_t point_count, uint32_t influence_count, uint16_t *joints,
+                                float *weights, limn_skin_place *place);
+
+/// Whether a skin can be used: LIMN_ERROR_SKIN, LIMN_ERROR_JOINT, LIMN_ERROR_WEIGHT, or
+/// LIMN_ERROR_WEIGHT_SUM where the weights of a point are more than 1e-6 off 1. Its kernels are not
+/// looked at. Safe on untrusted arrays of the right size. Does not allocate; any thread.
+///
+/// place  out: the first that is refused, if any is; or NULL
+limn_result limn_skin_check(const limn_skin *skin, limn_skin_place *place);
+
+/// The matrix of a joint as what it does to a point: first it stretches it, then it turns and moves
+/// it, by the unit dual quaternion real + e dual.
+typedef struct limn_dual_quaternion {
+    float real[4], dual[4]; ///< x, y, z, w
+    float stretch[3][4];    ///< rows, of which the last column is 0
+} limn_dual_quaternion;
+
+/// Takes matrices apart, in some 0.2 microseconds each: the rotation is the nearest one, and the
+/// stretch has what is left, so nothing is lost. That of a matrix that mirrors does so, too; one
+/// that flattens may have no rotation. Does not allocate, never fails; any thread.
+///
+/// matrices     [joint_count][3][4] as in a pose
+/// quaternions  out: [joint_count]
+void limn_dual_quaternions_make(const float *matrices, uint32_t joint_count,
+                                limn_dual_quaternion *quaternions);
+
+/// A skin in one frame. Matrices take points from the bind pose to where they are now: for each
+/// joint, where it is times the inverse of where it is in the bind pose. They are the caller's: one
+/// that is not finite makes all points that name its joint not finite, and no others.
+///
+/// matrices          rows: x' = m[0][0] x + m[0][1] y + m[0][2] z + m[0][3]. Linear blending: each
+///                   point is moved by the weighted sum of the matrices
+/// dual_quaternions  each point is stretched by the weighted sum of the stretches, then turned and
+///                   moved by that of the dual quaternions, made a unit one; each with the sign that
+///                   brings it closest to that of the first influence. So bodies keep their volume
+///                   where they twist
+typedef struct limn_pose {
+    const limn_skin *skin;
+    const float *matrices; ///< [joint_count][3][4]; not read where there are dual quaternions
+    const limn_dual_quaternion *dual_quaternions; ///< [joint_count]; NULL: linear blending
+} limn_pose;
+
+/// Moves points [begin, end). Does not allocate, never fails; any number of threads may take
+/// disjoint ranges.
+///
+/// points      [skin->point_count][3] floats, model units: the bind pose, or with morph targets
+/// begin, end  0 <= begin <= end <= skin->point_count
+/// out         the same shape, of which the range is written; may be `points`, and must not overlap
+///             them otherwise. The matrices are in its space
+void limn_pose_points(const limn_pose *pose, const float *points, uint32_t begin, uint32_t end,
+                      float *out);
+
+/// Turns normals [begin, end) of the bind pose as the points at them are turned, instead of
+/// computing them from the points that were moved: cheaper than limn_mesh_control_normals(), and
+/// wrong, by any angle, where joints change the shape of the surface, as a normal knows only the
+/// joints of its own control point (Brickhill, Figure 6). Enough to light control points with. As
+/// limn_output.control_normals they would show: all other rows have exact normals. Does not
+/// allocate, never fails; any number of threads may take disjoint ranges.
+///
+/// mesh        has normals, and skin->point_count control points, which are its base vertices (a mesh
+///             that has been divided has others)
+/// normals     [mesh->normal_count][3] unit vectors: limn_mesh_control_normals() of the bind pose
+/// begin, end  0 <= begin <= end <= mesh->normal_count
+/// out         the same shape, of which the range is written with unit vectors, (0, 0, 1) for what
+///             the joints make too short; may be `normals`, and must not overlap them otherwise
+void limn_pose_normals(const limn_pose *pose, const limn_mesh *mesh, const float *normals,
+                       uint32_t begin, uint32_t end, float *out);
+
+/// Shapes to blend, such as those of a face: each lists the points that it moves. The caller's, see
+/// limn_morph_check().
+typedef struct limn_morph_targets {
+    uint32_t point_count; ///< the control_count of the mesh
+    uint32_t target_count;
+    const uint32_t *first;  ///< [target_count + 1] where the entries of each target begin; the last
+                            ///< is the number of entries
+    const uint32_t *points; ///< [entries] below point_count, ascending in each target
+    const float *deltas;    ///< [entries][3] model units: how far a weight of 1 moves them
+} limn_morph_targets;
+
+/// A place in morph targets.
+typedef struct limn_morph_place {
+    uint32_t target;
+    uint32_t entry; ///< of all
+} limn_morph_place;
+
+/// Whether morph targets can be used: LIMN_ERROR_MORPH_POINT, where also `first` may be at fault, or
+/// LIMN_ERROR_MORPH_DELTA. Does not allocate; any thread.
+///
+/// entry_count  how many `points` and `deltas` have room for: what lies behind is not read
+/// place        out: the first that is refused, if any is; or NULL
+limn_result limn_morph_check(const limn_morph_targets *targets, uint32_t entry_count,
+                             limn_morph_place *place);
+
+/// Adds targets to points [begin, end): each gets the sum of its movements times their weights, in
+/// the order of the targets. Those of weight 0 cost nothing. Does not allocate, never fails; any
+/// number of threads may take disjoint ranges.
+///
+/// weights     [target_count] finite
+/// points      [targets->point_count][3] floats, model units
+/// begin, end  0 <= begin <= end <= targets->point_count
+/// out         the same shape, of which the range is written; must not overlap the points
+void limn_morph_points(const limn_morph_targets *targets, const float *weights, const float *points,
+                       uint32_t begin, uint32_t end, float *out);
 
 // -------------------------------------------------------------------------------------------------
 // Plans and evaluation
