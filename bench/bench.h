@@ -20,6 +20,7 @@ int bench_isolation(int argc, char **argv);
 int bench_kernels(int argc, char **argv);
 int bench_peers(int argc, char **argv);
 int bench_plan(int argc, char **argv);
+int bench_skin(int argc, char **argv);
 int bench_weights(int argc, char **argv);
 
 /// Seconds of a clock that only goes forward.

@@ -20,6 +20,7 @@ static const struct {
      "time per face beside OpenSubdiv, recursive subdivision and dense skinning"},
     {"plan", bench_plan,
      "time to plan a frame beside that to evaluate it; mixed levels; two threads"},
+    {"skin", bench_skin, "time to move control points beside that to evaluate their surface"},
     {"weights", bench_weights, "Loop's weights beside Warren's: shape, curvature and tables"},
 };
 

@@ -32,4 +32,9 @@ expect "and named" grep -q imp.limn error.txt
 expect "no results are left" [ ! -e isolation.csv ]
 expect "a wrong option" sh -c "'$bench' isolation --rounds 0 2>error.txt; [ \$? = 2 ]"
 expect "is named" grep -q -- --rounds error.txt
+
+# 13 steps of a frame
+expect skin "$bench" skin --quick --rounds 1 --csv skin.csv "$assets/imp.obj" >skin.txt
+expect "steps" [ "$(grep -c '^imp.obj,' skin.csv)" = 13 ]
+expect "every step is a time" [ "$(awk -F, '/^imp/ && $(NF - 1) <= 0' skin.csv)" = "" ]
 exit $failed

@@ -402,10 +402,10 @@ typedef struct limn_pose {
 void limn_pose_points(const limn_pose *pose, const float *points, uint32_t begin, uint32_t end,
                       float *out);
 
-/// Turns normals [begin, end) of the bind pose as the points at them are turned, instead of
-/// computing them from the points that were moved: cheaper than limn_mesh_control_normals(), and
-/// wrong, by any angle, where joints change the shape of the surface, as a normal knows only the
-/// joints of its own control point (Brickhill, Figure 6). Enough to light control points with. As
+/// Turns normals [begin, end) of the bind pose as the points at them are turned (Brickhill), for
+/// those who light control points so. Wrong, by any angle, where joints change the shape of the
+/// surface, as a normal knows only the joints of its own control point (his Figure 6).
+/// limn_mesh_control_normals() after limn_pose_points() is exact and costs as much. As
 /// limn_output.control_normals they would show: all other rows have exact normals. Does not
 /// allocate, never fails; any number of threads may take disjoint ranges.
 ///
