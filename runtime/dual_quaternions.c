@@ -41,9 +41,9 @@ static matrix combine(double x, const matrix *a, double y, const matrix *b) {
     return sum;
 }
 
-/// The rotation nearest to `a`: the average with the inverse transpose, again and again, both scaled
-/// to one size (Higham, "Computing the polar decomposition - with applications", 1986). If `a`
-/// mirrors, that of -a. Returns false where there is no volume to speak of.
+/// The rotation nearest to `a`: the average with the inverse transpose, again and again, both
+/// scaled to one size (Higham, "Computing the polar decomposition - with applications", 1986). If
+/// `a` mirrors, that of -a. Returns false where there is no volume to speak of.
 static bool find_rotation(const matrix *a, matrix *rotation) {
     enum { STEPS = 20 };
     const double least_volume = 1e-12, least_change = 1e-12; // the error is then less

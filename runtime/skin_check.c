@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/// How far the weights of a point may be off 1: as far off, in parts of the distance from the origin,
-/// is what they move.
+/// How far the weights of a point may be off 1: they move it by as much of its distance from the
+/// origin.
 #define SUM_TOLERANCE 1e-6
 
 /// One influence, for sorting.

@@ -72,8 +72,8 @@ static inline void make_unit_normals(lanes *x, lanes *y, lanes *z) {
     const lanes square = lanes_add(lanes_add(lanes_multiply(*x, *x), lanes_multiply(*y, *y)),
                                    lanes_multiply(*z, *z));
     const lanes root = inverse_root(square);
-    const lanes scale = lanes_select_greater(
-        square, least, lanes_select_greater(most, square, root, zero), zero);
+    const lanes scale =
+        lanes_select_greater(square, least, lanes_select_greater(most, square, root, zero), zero);
     const lanes u = lanes_add(lanes_multiply(*x, scale), zero);
     const lanes v = lanes_add(lanes_multiply(*y, scale), zero);
     const lanes w = lanes_add(lanes_multiply(*z, scale), zero);

@@ -323,7 +323,7 @@ void limn_mesh_corners(const limn_mesh *mesh, uint32_t patch_index,
 
 #define LIMN_INFLUENCE_MAX 8
 
-/// Which joints move the points of a mesh, and how much. The caller's, as it may come from anywhere:
+/// Which joints move the points of a mesh, and how much. The caller's, wherever it comes from:
 /// limn_skin_check() tells whether it is right, and nothing later does. An influence that is not
 /// needed has weight 0, and any joint.
 typedef struct limn_skin {
@@ -343,8 +343,9 @@ typedef struct limn_skin_place {
 } limn_skin_place;
 
 /// Makes the weights of each point sum to 1, and orders its influences: the strongest first, of
-/// equal ones that of the lower joint, and last those without weight, whose joint becomes that of the
-/// first. Does not allocate; any thread. What is refused is left as it is, and so is what follows:
+/// equal ones that of the lower joint, and last those without weight, whose joint becomes that of
+/// the first. Does not allocate; any thread. A point that is refused is left as it is, and so are
+/// those behind it:
 /// LIMN_ERROR_WEIGHT, or LIMN_ERROR_WEIGHT_SUM where all weights are 0.
 ///
 /// influence_count  on each point, 1 to LIMN_INFLUENCE_MAX
@@ -383,9 +384,9 @@ void limn_dual_quaternions_make(const float *matrices, uint32_t joint_count,
 /// matrices          rows: x' = m[0][0] x + m[0][1] y + m[0][2] z + m[0][3]. Linear blending: each
 ///                   point is moved by the weighted sum of the matrices
 /// dual_quaternions  each point is stretched by the weighted sum of the stretches, then turned and
-///                   moved by that of the dual quaternions, made a unit one; each with the sign that
-///                   brings it closest to that of the first influence. So bodies keep their volume
-///                   where they twist
+///                   moved by that of the dual quaternions, made a unit one; each with the sign
+///                   that brings it closest to that of the first influence. So bodies keep their
+///                   volume where they twist
 typedef struct limn_pose {
     const limn_skin *skin;
     const float *matrices; ///< [joint_count][3][4]; not read where there are dual quaternions
@@ -435,7 +436,7 @@ typedef struct limn_morph_place {
     uint32_t entry; ///< of all
 } limn_morph_place;
 
-/// Whether morph targets can be used: LIMN_ERROR_MORPH_POINT, where also `first` may be at fault, or
+/// Whether morph targets can be used: LIMN_ERROR_MORPH_POINT, where `first` may be at fault, or
 /// LIMN_ERROR_MORPH_DELTA. Does not allocate; any thread.
 ///
 /// entry_count  how many `points` and `deltas` have room for: what lies behind is not read
