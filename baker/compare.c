@@ -1,32 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 #include "compare.h"
 
+#include "base.h"
+#include "deviation.h"
 #include "info.h"
-#include "mesh_sharpness.h"
 #include "opensubdiv.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-static limn_bake_status check_same(limni_context *context, const limn_mesh *mesh,
-                                   const limni_mesh *source) {
-    if (mesh->control_count != source->control_count || mesh->face_count != source->face_count ||
-        memcmp(mesh->controls, source->controls,
-               source->control_count * sizeof *source->controls) != 0)
-        return limni_fail(
-            context, LIMN_BAKE_BAD_INPUT,
-            "%s: mesh '%s' was baked from something else, or repaired or split differently",
-            source->path, mesh->name);
-    return LIMN_BAKE_OK;
-}
-
-/// OpenSubdiv's surface: [face_count][153] of each.
+/// OpenSubdiv's surface: [faces of the base mesh][rows] of each.
 typedef struct answer {
-    const limni_mesh *built; ///< split where it is no manifold
+    const limni_mesh *base; ///< split where it is no manifold
     double (*limit)[3];
     double (*tangents)[2][3]; ///< NULL for a mesh without normals
-    bool *comparable;         ///< [control_count] whether normals are, at control points
+    bool *comparable;         ///< [vertices of the base mesh] whether normals are, there
     bool sided;               ///< on creases, each face has the tangents of its own side
 } answer;
 
@@ -79,14 +68,12 @@ static bool has_comparable_normals(const limni_star *star, bool sided) {
     }
 }
 
-/// Finds which control points have normals that can be compared. Those that were split have
-/// several.
-static limn_bake_status find_comparable(limni_context *context, const limni_mesh *source,
-                                        const limni_opensubdiv_mesh *how, bool **comparable) {
-    const limni_rules rules = {.boundary = how->boundary, .creasing = how->creasing};
-    limni_mesh_sharpness sharpness;
+/// Finds which vertices of the base mesh have normals that can be compared. Those that were split
+/// have several.
+static limn_bake_status find_comparable(limni_context *context, const limni_base *base,
+                                        const limni_rules *rules, bool **comparable) {
+    const limni_mesh *const source = base->mesh;
     uint32_t valence_max = 0;
-    LIMNI_TRY(limni_mesh_sharpness_begin(context, source, &rules, &sharpness));
     for (uint32_t c = 0; c < source->control_count; c++)
         valence_max = source->valences[c] > valence_max ? source->valences[c] : valence_max;
     uint32_t *const room = limni_allocate(context, 3 * (size_t)valence_max, sizeof *room);
@@ -96,11 +83,41 @@ static limn_bake_status find_comparable(limni_context *context, const limni_mesh
         limni_star star = {
             .ring = room, .edges = room + valence_max, .beyond = room + 2 * (size_t)valence_max};
         if (source->first[c] == LIMNI_NONE || limni_is_split(source, c)) continue;
-        limni_mesh_star(source, &sharpness, source->first[c], &star);
-        (*comparable)[c] = has_comparable_normals(&star, how->creasing != LIMN_CREASING_CHAIKIN);
+        limni_mesh_star(source, base->sharpness, source->first[c], &star);
+        (*comparable)[c] = has_comparable_normals(&star, rules->creasing != LIMN_CREASING_CHAIKIN);
     }
     limni_release(context, room);
-    limni_mesh_sharpness_end(context, &sharpness);
+    return LIMN_BAKE_OK;
+}
+
+/// How a file was baked.
+typedef struct recipe {
+    limni_opensubdiv_scheme scheme;
+    limni_rules rules;
+} recipe;
+
+static limn_bake_status read_scheme(limni_context *context, const limn_pack *pack,
+                                    const limn_mesh *mesh, recipe *r) {
+    char scheme[32], weights[32];
+    limni_info_value(pack->info, "scheme", scheme, sizeof scheme);
+    limni_info_value(pack->info, "weights", weights, sizeof weights);
+    const bool quads = mesh->domain->kind == LIMN_DOMAIN_QUAD;
+    if (strcmp(scheme, "loop") == 0) {
+        *r = (recipe){LIMNI_OPENSUBDIV_LOOP, {.scheme = LIMN_SCHEME_LOOP}};
+        if (strcmp(weights, "loop") == 0) return LIMN_BAKE_OK;
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                          "the file was baked with %s weights, which OpenSubdiv does not have",
+                          weights);
+    }
+    if (strcmp(scheme, "catmark") == 0) {
+        *r = (recipe){LIMNI_OPENSUBDIV_CATMARK, {.scheme = LIMN_SCHEME_CATMARK}};
+    } else if (strcmp(scheme, "none") == 0 && quads) {
+        *r = (recipe){LIMNI_OPENSUBDIV_BILINEAR, {.scheme = LIMN_SCHEME_NONE}};
+    } else {
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                          "the file was baked with --scheme %s, which OpenSubdiv does not have%s",
+                          scheme, quads ? "" : " for triangles");
+    }
     return LIMN_BAKE_OK;
 }
 
@@ -108,73 +125,112 @@ static limn_bake_status find_comparable(limni_context *context, const limni_mesh
 typedef struct subject {
     limni_mesh built; ///< split where it is no manifold, if that was asked for
     limni_mesh whole; ///< as OpenSubdiv takes it; with the same faces, half-edges and holes
+    limni_base base;  ///< of `built`
 } subject;
 
-static limn_bake_status read_subject(limni_context *context, const char *path, subject *s) {
+static limn_bake_status read_subject(limni_context *context, const limn_pack *pack,
+                                     const char *path, recipe *r, subject *s) {
+    char boundary[32], creases[32], creasing[32];
     limni_source source = {0}, again = {0};
+    context->desc.scheme = r->rules.scheme;
     LIMNI_TRY(limni_read_file(context, path, &source));
     LIMNI_TRY(limni_mesh_build(context, &source, &s->built));
     LIMNI_TRY(limni_read_file(context, path, &again));
-    return limni_mesh_begin(context, &again, &s->whole);
-}
-
-static limn_bake_status oracle(limni_context *context, const limn_pack *pack, const subject *s,
-                               bool with_normals, answer *given) {
-    const limni_mesh *const source = &s->whole;
-    char scheme[32], weights[32], boundary[32], creases[32], creasing[32], error[512];
-    limni_info_value(pack->info, "scheme", scheme, sizeof scheme);
-    limni_info_value(pack->info, "weights", weights, sizeof weights);
+    LIMNI_TRY(limni_mesh_begin(context, &again, &s->whole));
     limni_info_value(pack->info, "boundary", boundary, sizeof boundary);
     limni_info_value(pack->info, "creases", creases, sizeof creases);
     limni_info_value(pack->info, "creasing", creasing, sizeof creasing);
-    if (strcmp(scheme, "loop") != 0)
-        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                          "the file was baked with --scheme %s, and only Loop's is compared",
-                          scheme);
-    if (strcmp(weights, "loop") != 0)
-        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                          "the file was baked with %s weights, which OpenSubdiv does not have",
-                          weights);
     if (strcmp(creases, "lomont") == 0 &&
         (limni_has_sharpness(&s->built) || limni_has_boundary(&s->built)))
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
                           "%s: the mesh was baked with Lomont's rules for creases and boundaries, "
                           "which OpenSubdiv does not have",
-                          source->path);
+                          path);
+    r->rules.boundary = boundary_of(boundary, &s->built);
+    r->rules.creasing = creasing_of(creasing, &s->built);
+    return limni_base_begin(context, &s->built, &r->rules, &s->base);
+}
+
+static limn_bake_status check_same(limni_context *context, const limn_mesh *mesh,
+                                   const subject *s) {
+    const limni_mesh *const source = &s->built;
+    if (mesh->control_count != source->control_count ||
+        mesh->face_count != s->base.mesh->face_count ||
+        memcmp(mesh->controls, source->controls,
+               source->control_count * sizeof *source->controls) != 0)
+        return limni_fail(
+            context, LIMN_BAKE_BAD_INPUT,
+            "%s: mesh '%s' was baked from something else, or repaired or split differently",
+            source->path, mesh->name);
+    return LIMN_BAKE_OK;
+}
+
+/// The corners of each face.
+static limn_bake_status list_sizes(limni_context *context, const limni_mesh *mesh,
+                                   uint32_t **sizes) {
+    *sizes = limni_allocate(context, mesh->face_count, sizeof **sizes);
+    if (!*sizes) return LIMN_BAKE_MEMORY;
+    for (uint32_t face = 0; face < mesh->face_count; face++)
+        (*sizes)[face] = limni_face_size(mesh, face);
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status oracle(limni_context *context, const recipe *r, const subject *s,
+                               bool with_normals, answer *given) {
+    const limni_mesh *const source = &s->whole;
+    char error[512];
+    uint32_t *sizes;
+    LIMNI_TRY(list_sizes(context, source, &sizes));
     const limni_opensubdiv_mesh mesh = {
         .positions = source->controls[0],
         .faces = source->corners,
+        .face_sizes = sizes,
         .position_count = source->control_count,
         .face_count = source->face_count,
-        .boundary = boundary_of(boundary, source),
+        .scheme = r->scheme,
+        .divided = s->base.divided,
+        .boundary = r->rules.boundary,
         .level = LIMN_LEVEL_MAX,
         .edge_sharpness = source->edge_sharpness,
         .vertex_sharpness = source->vertex_sharpness,
         .holes = source->holes,
-        .creasing = creasing_of(creasing, source),
+        .creasing = r->rules.creasing,
     };
-    const uint32_t row_count = limn_domain_get(LIMN_DOMAIN_TRIANGLE)->row_counts[LIMN_LEVEL_MAX];
-    const size_t count = (size_t)source->face_count * row_count;
+    const uint32_t row_count = limn_domain_get(source->domain)->row_counts[LIMN_LEVEL_MAX];
+    const size_t count = (size_t)s->base.mesh->face_count * row_count;
     given->limit = limni_allocate(context, count, sizeof *given->limit);
     if (with_normals) given->tangents = limni_allocate(context, count, sizeof *given->tangents);
     if (!given->limit || (with_normals && !given->tangents)) return LIMN_BAKE_MEMORY;
+    given->base = s->base.mesh;
     given->sided = mesh.creasing != LIMN_CREASING_CHAIKIN;
-    LIMNI_TRY(find_comparable(context, &s->built, &mesh, &given->comparable));
+    LIMNI_TRY(find_comparable(context, &s->base, &r->rules, &given->comparable));
     if (!limni_opensubdiv_limit(&mesh, given->limit, given->tangents, error, sizeof error))
         return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: OpenSubdiv: %s", source->path, error);
     return LIMN_BAKE_OK;
 }
 
-/// The row of the unrotated triangle at the same place as `row` of a patch that starts at corner
+static uint32_t row_at(const limn_domain *domain, uint32_t i, uint32_t j) {
+    uint32_t row = 0;
+    while (domain->rows[row].i != i || domain->rows[row].j != j)
+        row++;
+    return row;
+}
+
+/// The row of the unrotated domain at the same place as `row` of a patch that starts at corner
 /// `rotation`.
 static uint32_t unrotate(const limn_domain *domain, uint32_t row, uint32_t rotation) {
-    uint32_t weights[3] = {0, domain->rows[row].i, domain->rows[row].j}; // of the patch's corners
-    weights[0] = LIMN_GRID_SIZE - weights[1] - weights[2];
-    const uint32_t i = weights[(1 + 3 - rotation) % 3], j = weights[(2 + 3 - rotation) % 3];
-    uint32_t other = 0;
-    while (domain->rows[other].i != i || domain->rows[other].j != j)
-        other++;
-    return other;
+    uint32_t i = domain->rows[row].i, j = domain->rows[row].j;
+    for (; rotation > 0; rotation--) {
+        const uint32_t before = i;
+        if (domain->kind == LIMN_DOMAIN_QUAD) {
+            i = LIMN_GRID_SIZE - j;
+            j = before;
+        } else {
+            i = LIMN_GRID_SIZE - i - j;
+            j = before;
+        }
+    }
+    return row_at(domain, i, j);
 }
 
 static double distance(const float *a, const double *b) {
@@ -223,12 +279,13 @@ static double angle_between(const float normal[3], const double tangents[2][3]) 
 
 /// The edges of a patch between two vertices that were split: one of each has OpenSubdiv's
 /// tangents.
-static uint32_t split_edges(const limn_mesh *mesh, const limni_mesh *built, uint32_t patch) {
+static uint32_t split_edges(const limn_mesh *mesh, const limni_mesh *base, uint32_t patch) {
+    const uint32_t count = mesh->domain->corner_count, first = mesh->base_first;
     uint32_t corners[LIMN_CORNER_MAX], edges = 0;
     limn_mesh_corners(mesh, patch, corners);
-    for (uint32_t e = 0; e < 3; e++)
-        edges |= (uint32_t)(limni_is_split(built, corners[e]) &&
-                            limni_is_split(built, corners[(e + 1) % 3]))
+    for (uint32_t e = 0; e < count; e++)
+        edges |= (uint32_t)(limni_is_split(base, corners[e] - first) &&
+                            limni_is_split(base, corners[(e + 1) % count] - first))
                  << e;
     return edges;
 }
@@ -238,15 +295,16 @@ static bool is_comparable(const limn_mesh *mesh, const answer *given, uint32_t p
     uint32_t corners[LIMN_CORNER_MAX];
     if (row < mesh->domain->corner_count) {
         limn_mesh_corners(mesh, patch, corners);
-        return given->comparable[corners[row]];
+        return given->comparable[corners[row] - mesh->base_first];
     }
     const uint32_t edges = mesh->domain->rows[row].edges;
-    if (edges & split_edges(mesh, given->built, patch)) return false;
+    if (edges & split_edges(mesh, given->base, patch)) return false;
     return given->sided || !mesh->creases || !(mesh->creases[patch] & edges);
 }
 
 static void compare_normals(const limn_mesh *mesh, const answer *given, uint32_t patch,
-                            const float (*normals)[3], uint32_t unrotated[3][256],
+                            const float (*normals)[3],
+                            uint32_t unrotated[LIMN_CORNER_MAX][LIMNI_ROWS_MAX],
                             limni_comparison *comparison) {
     const uint32_t row_count = mesh->domain->row_counts[LIMN_LEVEL_MAX];
     const limn_patch_face face = limn_mesh_face(mesh, patch);
@@ -272,7 +330,8 @@ static void compare_normals(const limn_mesh *mesh, const answer *given, uint32_t
 }
 
 static void compare_patch(const limn_mesh *mesh, uint32_t patch, const float (*vertices)[3],
-                          const double (*limit)[3], uint32_t unrotated[3][256],
+                          const double (*limit)[3],
+                          uint32_t unrotated[LIMN_CORNER_MAX][LIMNI_ROWS_MAX],
                           limni_comparison *comparison) {
     const uint32_t row_count = mesh->domain->row_counts[LIMN_LEVEL_MAX];
     const limn_patch_face face = limn_mesh_face(mesh, patch);
@@ -293,10 +352,12 @@ static void compare_patch(const limn_mesh *mesh, uint32_t patch, const float (*v
 limn_bake_status limni_compare(limni_context *context, const limn_pack *pack, const limn_mesh *mesh,
                                const char *path, limni_comparison *comparison) {
     subject read;
-    answer given = {.built = &read.built};
-    LIMNI_TRY(read_subject(context, path, &read));
-    LIMNI_TRY(check_same(context, mesh, &read.built));
-    LIMNI_TRY(oracle(context, pack, &read, mesh->normals, &given));
+    recipe baked;
+    answer given = {0};
+    LIMNI_TRY(read_scheme(context, pack, mesh, &baked));
+    LIMNI_TRY(read_subject(context, pack, path, &baked, &read));
+    LIMNI_TRY(check_same(context, mesh, &read));
+    LIMNI_TRY(oracle(context, &baked, &read, mesh->normals, &given));
 
     const limn_plan plan = limn_plan_uniform(mesh, LIMN_LEVEL_MAX);
     float(*const vertices)[3] =
@@ -313,8 +374,8 @@ limn_bake_status limni_compare(limni_context *context, const limn_pack *pack, co
     }
     limn_evaluate(&plan, mesh->controls, 0, plan.patch_count, &output);
 
-    uint32_t unrotated[3][256];
-    for (uint32_t rotation = 0; rotation < 3; rotation++) {
+    uint32_t unrotated[LIMN_CORNER_MAX][LIMNI_ROWS_MAX];
+    for (uint32_t rotation = 0; rotation < mesh->domain->corner_count; rotation++) {
         for (uint32_t row = 0; row < mesh->domain->row_counts[LIMN_LEVEL_MAX]; row++)
             unrotated[rotation][row] = unrotate(mesh->domain, row, rotation);
     }

@@ -10,7 +10,7 @@ typedef struct limni_comparison {
     double diagonal; ///< of the control points' bounding box
     double rounding; ///< what rounding the result to floats alone may add, relative to the diagonal
     double largest, mean;             ///< distances, relative to the diagonal
-    uint32_t largest_face;            ///< where the largest is: a triangle of the source, from 0
+    uint32_t largest_face;            ///< where the largest is: a face of the base mesh, from 0
     uint64_t vertex_count;            ///< compared
     uint64_t normal_count;            ///< compared, if the mesh has normals
     uint64_t degenerate_count;        ///< not compared: the tangents span next to nothing
@@ -20,9 +20,9 @@ typedef struct limni_comparison {
     uint32_t largest_angle_face;
 } limni_comparison;
 
-/// Compares the bind pose at level 4, all 153 rows of every face, with OpenSubdiv's answer for the
-/// mesh in the file `path`. Fails when the mesh was baked from something else, not with Loop's
-/// weights, or with Lomont's rules where these differ.
+/// Compares the bind pose at level 4, all rows of every patch, with OpenSubdiv's answer for the
+/// mesh in the file `path`. Fails when the mesh was baked from something else, by a scheme or weights
+/// that OpenSubdiv does not have, or with Lomont's rules where these differ.
 limn_bake_status limni_compare(limni_context *context, const limn_pack *pack, const limn_mesh *mesh,
                                const char *path, limni_comparison *comparison);
 

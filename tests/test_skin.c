@@ -76,9 +76,12 @@ static void make_normals(made *m) {
             m->normals[3 * n + (uint32_t)i] = (float)q[i];
     }
     for (uint32_t s = 0; s < SIDES; s++)
-        m->sides[s].control = random_index(POINTS);
-    m->mesh = (limn_mesh){
-        .control_count = POINTS, .normal_count = NORMALS, .normals = &m->none, .sides = m->sides};
+        m->sides[s].point = random_index(POINTS);
+    m->mesh = (limn_mesh){.control_count = POINTS,
+                          .base_count = POINTS,
+                          .normal_count = NORMALS,
+                          .normals = &m->none,
+                          .sides = m->sides};
 }
 
 static void make(made *m, uint32_t influence_count) {
@@ -143,7 +146,7 @@ static double worst_point(const made *m, bool dual, const float *points) {
 static double worst_normal(const made *m, bool dual, const float *normals) {
     double error = 0;
     for (uint32_t n = 0; n < NORMALS; n++) {
-        const uint32_t point = n < POINTS ? n : m->sides[n - POINTS].control;
+        const uint32_t point = n < POINTS ? n : m->sides[n - POINTS].point;
         double expected[3];
         if (dual) {
             blend_dual(&m->skin, m->motions, point, m->normals + 3 * n, 0, expected);
@@ -338,7 +341,8 @@ static void test_no_direction(void) {
     static const float matrices[24] = {1, 0, 0, 0, 0, 1,  0, 0, 0, 0, 1,  0,
                                        1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0};
     const limn_file_normal none = {0};
-    const limn_mesh mesh = {.control_count = 1, .normal_count = 1, .normals = &none};
+    const limn_mesh mesh = {
+        .control_count = 1, .base_count = 1, .normal_count = 1, .normals = &none};
     const limn_skin skin = {1, 2, 2, joints, weights, scalar_kernels()};
     float turned[3];
     limn_pose_normals(&(limn_pose){.skin = &skin, .matrices = matrices}, &mesh, normal, 0, 1,
