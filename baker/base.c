@@ -36,7 +36,10 @@ static limn_bake_status divide(limni_context *context, const limni_rules *rules,
     limni_place_points(&base->stencils, points, count, made->control_count);
     memcpy(made->controls, points + count, made->control_count * sizeof *points);
     limni_release(context, points);
-    return LIMN_BAKE_OK;
+    if (rules->scheme != LIMN_SCHEME_NONE) return LIMN_BAKE_OK;
+    // Edges that are new inside a face are edges of faces now.
+    limni_mesh_sharpness_end(context, &base->refined.sharpness);
+    return limni_mesh_sharpness_begin(context, made, rules, &base->refined.sharpness);
 }
 
 limn_bake_status limni_base_begin(limni_context *context, const limni_mesh *source,

@@ -43,11 +43,11 @@ static uint32_t longest_smooth_run(const limni_star *star, uint32_t first_sharp)
     return longest;
 }
 
-/// Whether normals at a control point can be compared (docs/design.md). OpenSubdiv's tangents at
-/// boundary vertices of valence 5 and more are not those of the limit, but converge to them with
-/// the level of refinement, and those of its surfaces likewise on creases with four faces and more
-/// on a side, and at corners with smooth edges. Ours are not those of the limit at the end of a
-/// crease.
+/// Whether normals at a vertex can be compared (docs/design.md). OpenSubdiv's tangents at boundary
+/// vertices with four faces and more, of quads three, are not those of the limit, but converge to
+/// them with the level of refinement, and those of its surfaces likewise on creases with as many
+/// faces on a side, and at corners with smooth edges. Ours are not those of the limit at the end of
+/// a crease. Two quads back to back have no tangent plane.
 ///
 /// sided  see answer
 static bool has_comparable_normals(const limni_star *star, bool sided) {
@@ -58,9 +58,9 @@ static bool has_comparable_normals(const limni_star *star, bool sided) {
     const uint32_t longest = any_sharp ? longest_smooth_run(star, last.ends[0]) : 0;
     switch (last.rule) {
     case LIMNI_VERTEX_SMOOTH:
-        return true;
+        return !star->diagonals || star->count > 2;
     case LIMNI_VERTEX_CREASE:
-        return longest < 3;
+        return longest < (star->diagonals ? 2 : 3);
     case LIMNI_VERTEX_CORNER:
         return any_sharp && longest == 0;
     default:
@@ -76,12 +76,14 @@ static limn_bake_status find_comparable(limni_context *context, const limni_base
     uint32_t valence_max = 0;
     for (uint32_t c = 0; c < source->control_count; c++)
         valence_max = source->valences[c] > valence_max ? source->valences[c] : valence_max;
-    uint32_t *const room = limni_allocate(context, 3 * (size_t)valence_max, sizeof *room);
+    uint32_t *const room = limni_allocate(context, 4 * (size_t)valence_max, sizeof *room);
     *comparable = limni_allocate_zeroed(context, source->control_count, sizeof **comparable);
     if (!room || !*comparable) return LIMN_BAKE_MEMORY;
     for (uint32_t c = 0; c < source->control_count; c++) {
-        limni_star star = {
-            .ring = room, .edges = room + valence_max, .beyond = room + 2 * (size_t)valence_max};
+        limni_star star = {.ring = room,
+                           .edges = room + valence_max,
+                           .beyond = room + 2 * (size_t)valence_max,
+                           .diagonals = room + 3 * (size_t)valence_max};
         if (source->first[c] == LIMNI_NONE || limni_is_split(source, c)) continue;
         limni_mesh_star(source, base->sharpness, source->first[c], &star);
         (*comparable)[c] = has_comparable_normals(&star, rules->creasing != LIMN_CREASING_CHAIKIN);

@@ -80,8 +80,8 @@ static limn_bake_status convert_edges(limni_context *context, const limni_mesh *
     if (!sharpness->edges) return LIMN_BAKE_MEMORY;
     for (uint32_t h = 0; h < count; h++) {
         const bool forever = mesh->pairs[h] == LIMNI_NONE || is_flat(rules);
-        const limni_sharpness s = limni_sharpness_from_float(mesh->edge_sharpness[h]);
-        sharpness->edges[h] = forever ? LIMNI_SHARPNESS_INFINITE : s;
+        sharpness->edges[h] = forever ? LIMNI_SHARPNESS_INFINITE
+                                      : limni_sharpness_from_float(mesh->edge_sharpness[h]);
     }
     return LIMN_BAKE_OK;
 }

@@ -256,6 +256,8 @@ static limn_bake_status make_normals(limni_context *context, const limni_base *b
                                           &patches->normals));
     for (uint64_t r = 0; r < patches->normals.ring_size; r++)
         patches->normals.ring[r] += base->first;
+    for (uint32_t side = 0; side < patches->normals.side_count; side++)
+        patches->normals.sides[side].point += base->first;
     return list_corner_normals(context, base->mesh, patches);
 }
 

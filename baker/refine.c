@@ -348,8 +348,8 @@ static limn_bake_status write_point(writer *w, uint32_t point) {
         for (next = k; next < count && terms[next].control == terms[k].control; next++)
             weight += terms[next].weight;
         if (weight != 0)
-            w->stencils->terms[w->count++] = (limn_file_term){
-                .point = terms[k].control, .weight = limni_fixed_to_float(weight)};
+            w->stencils->terms[w->count++] =
+                (limn_file_term){.point = terms[k].control, .weight = limni_fixed_to_float(weight)};
     }
     return LIMN_BAKE_OK;
 }
