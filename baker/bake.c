@@ -92,6 +92,10 @@ static void note_rules(limni_context *context, const limni_rules *rules, bool is
 /// What the rules make of the mesh before it is classified.
 static limn_bake_status apply_rules(limni_context *context, const limni_rules *rules,
                                     limni_mesh *mesh) {
+    if (rules->creases == LIMN_CREASES_LOMONT && rules->scheme == LIMN_SCHEME_CATMARK)
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                          "%s: Lomont's creases are those of triangles, not Catmull-Clark's",
+                          place_of(mesh));
     if (rules->creases == LIMN_CREASES_LOMONT && rules->creasing == LIMN_CREASING_CHAIKIN)
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
                           "%s: Chaikin's creasing goes with OpenSubdiv's creases, not Lomont's",

@@ -13,12 +13,23 @@ void limni_place_points(const limni_stencils *stencils, float (*points)[3], uint
     limn_mesh_refine(&view, points[0]);
 }
 
-static bool is_made_of_patches(const limni_mesh *mesh) {
+/// How many faces are no patches of the domain.
+static uint32_t count_others(const limni_mesh *mesh) {
     const uint32_t size = limn_domain_get(mesh->domain)->corner_count;
-    for (uint32_t face = 0; face < mesh->face_count; face++) {
-        if (limni_face_size(mesh, face) != size) return false;
-    }
-    return true;
+    uint32_t count = 0;
+    for (uint32_t face = 0; face < mesh->face_count; face++)
+        count += limni_face_size(mesh, face) != size;
+    return count;
+}
+
+static void note_division(limni_context *context, const limni_mesh *source,
+                          const limni_mesh *made) {
+    limni_note(
+        context,
+        "%s: divided: %u of %u faces are not quads, so patches are the %u quads of the first "
+        "level of subdivision",
+        source->path ? source->path : source->name, count_others(source), source->face_count,
+        made->face_count);
 }
 
 static limn_bake_status divide(limni_context *context, const limni_rules *rules, limni_base *base) {
@@ -44,12 +55,13 @@ static limn_bake_status divide(limni_context *context, const limni_rules *rules,
 
 limn_bake_status limni_base_begin(limni_context *context, const limni_mesh *source,
                                   const limni_rules *rules, limni_base *base) {
-    *base = (limni_base){.source = source, .divided = !is_made_of_patches(source)};
+    *base = (limni_base){.source = source, .divided = count_others(source) > 0};
     LIMNI_TRY(limni_mesh_sharpness_begin(context, source, rules, &base->source_sharpness));
     base->mesh = source;
     base->sharpness = &base->source_sharpness;
     if (!base->divided) return LIMN_BAKE_OK;
     LIMNI_TRY(divide(context, rules, base));
+    note_division(context, source, &base->refined.mesh);
     base->first = source->control_count;
     base->mesh = &base->refined.mesh;
     base->sharpness = &base->refined.sharpness;
