@@ -22,12 +22,18 @@ struct limn_baker {
     size_t blob_size;
 };
 
+/// A number below 1, which a float has with fewer bits.
+static limni_fixed limni_fixed_from(float value) {
+    return (limni_fixed)((double)value * (double)LIMNI_FIXED_ONE);
+}
+
 limn_baker *limn_baker_create(const limn_bake_desc *desc) {
     limn_baker *const baker = calloc(1, sizeof *baker);
     if (!baker) return NULL;
     if (desc) baker->context.desc = *desc;
     baker->rules = (limni_rules){.scheme = baker->context.desc.scheme,
                                  .weights = baker->context.desc.weights,
+                                 .tension = limni_fixed_from(baker->context.desc.tension),
                                  .boundary = baker->context.desc.boundary,
                                  .creases = baker->context.desc.creases,
                                  .creasing = baker->context.desc.creasing,
@@ -65,6 +71,8 @@ static limni_rules rules_for(const limni_rules *options, const limni_mesh *mesh)
     const bool lomont = rules.creases == LIMN_CREASES_LOMONT; // whose sharpness falls by 1
     if (rules.creasing == LIMN_CREASING_DEFAULT && !lomont) rules.creasing = mesh->creasing;
     if (rules.creasing == LIMN_CREASING_DEFAULT) rules.creasing = LIMN_CREASING_UNIFORM;
+    if (rules.scheme == LIMN_SCHEME_BUTTERFLY && rules.isolate == LIMN_ISOLATE_AUTO)
+        rules.isolate = LIMN_ISOLATE_NEVER; // would divide the mesh, which is for the user to say
     if (rules.scheme == LIMN_SCHEME_NONE) { // evenly divided, by these rules alone
         rules.creases = LIMN_CREASES_OPENSUBDIV;
         rules.creasing = LIMN_CREASING_UNIFORM;
@@ -85,6 +93,9 @@ static void note_rules(limni_context *context, const limni_rules *rules, bool is
                    "%s: a mesh of Lomont's with OpenSubdiv's creases and boundaries; his are "
                    "--creases lomont",
                    place_of(mesh));
+    if (rules->scheme == LIMN_SCHEME_BUTTERFLY && limni_has_sharpness(mesh))
+        limni_note(context, "%s: sharp edges and vertices are smooth: the butterfly has no creases",
+                   place_of(mesh));
     if (lomont && mesh->creasing == LIMN_CREASING_CHAIKIN && limni_has_sharpness(mesh))
         limni_note(context, "%s: Chaikin's creasing is ignored: Lomont has none", place_of(mesh));
 }
@@ -92,10 +103,18 @@ static void note_rules(limni_context *context, const limni_rules *rules, bool is
 /// What the rules make of the mesh before it is classified.
 static limn_bake_status apply_rules(limni_context *context, const limni_rules *rules,
                                     limni_mesh *mesh) {
-    if (rules->creases == LIMN_CREASES_LOMONT && rules->scheme == LIMN_SCHEME_CATMARK)
+    const bool butterfly = rules->scheme == LIMN_SCHEME_BUTTERFLY;
+    if (rules->creases == LIMN_CREASES_LOMONT &&
+        (rules->scheme == LIMN_SCHEME_CATMARK || butterfly))
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                          "%s: Lomont's creases are those of triangles, not Catmull-Clark's",
+                          "%s: Lomont's creases are those of Loop's scheme alone", place_of(mesh));
+    if (butterfly && mesh->origins)
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                          "%s: not a manifold, and sheets of the butterfly would not meet",
                           place_of(mesh));
+    const float tension = context->desc.tension;
+    if (!(tension >= -0.25f && tension <= 0.25f))
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "the tension is not between -1/4 and 1/4");
     if (rules->creases == LIMN_CREASES_LOMONT && rules->creasing == LIMN_CREASING_CHAIKIN)
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
                           "%s: Chaikin's creasing goes with OpenSubdiv's creases, not Lomont's",

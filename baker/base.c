@@ -24,12 +24,19 @@ static uint32_t count_others(const limni_mesh *mesh) {
 
 static void note_division(limni_context *context, const limni_mesh *source,
                           const limni_mesh *made) {
-    limni_note(
-        context,
-        "%s: divided: %u of %u faces are not quads, so patches are the %u quads of the first "
-        "level of subdivision",
-        source->path ? source->path : source->name, count_others(source), source->face_count,
-        made->face_count);
+    const char *const name = source->path ? source->path : source->name;
+    const uint32_t others = count_others(source);
+    if (others > 0)
+        limni_note(context,
+                   "%s: divided: %u of %u faces are not quads, so patches are the %u quads of the "
+                   "first level of subdivision",
+                   name, others, source->face_count, made->face_count);
+    else
+        limni_note(
+            context,
+            "%s: divided: isolation takes two levels of the butterfly, so patches are the %u "
+            "faces of the first",
+            name, made->face_count);
 }
 
 static limn_bake_status divide(limni_context *context, const limni_rules *rules, limni_base *base) {
@@ -55,7 +62,11 @@ static limn_bake_status divide(limni_context *context, const limni_rules *rules,
 
 limn_bake_status limni_base_begin(limni_context *context, const limni_mesh *source,
                                   const limni_rules *rules, limni_base *base) {
-    *base = (limni_base){.source = source, .divided = count_others(source) > 0};
+    // Two levels apart, extraordinary vertices are out of each other's reach.
+    const bool far = limni_scheme_of(rules, source->domain)->reach == 2;
+    const bool isolated = rules->isolate == LIMN_ISOLATE_ALWAYS;
+    *base =
+        (limni_base){.source = source, .divided = count_others(source) > 0 || (far && isolated)};
     LIMNI_TRY(limni_mesh_sharpness_begin(context, source, rules, &base->source_sharpness));
     base->mesh = source;
     base->sharpness = &base->source_sharpness;

@@ -243,45 +243,11 @@ static void fill_slot(const class_maker *maker, uint32_t slot, uint32_t column_i
     }
 }
 
-/// The tangents of one corner of a piece, which is new, as sums of slots.
-static limn_bake_status add_corner_tangents(limni_context *context, const limni_rules *rules,
-                                            const limni_local_base *base, uint32_t corner,
-                                            uint32_t half_steps, limni_fixed *tangents,
-                                            size_t table_size) {
-    const limni_star *const star = &base->corners[corner];
-    const uint32_t *const twins = base->twins;
-    const uint32_t faces = star->diagonals ? limni_star_face_count(star) : 0;
-    const size_t size = 1 + (size_t)star->count + faces;
-    limni_fixed *const masks = limni_allocate(context, 2 * size, sizeof *masks);
-    if (!masks) return LIMN_BAKE_MEMORY;
-    LIMNI_TRY(limni_star_tangents(context, rules, star, half_steps, masks, masks + size));
-    for (uint32_t table = 0; table < 2; table++) {
-        limni_fixed *const row =
-            tangents + table * table_size + (size_t)corner * base->control_count;
-        const limni_fixed *const mask = masks + table * size;
-        row[twins[corner]] += mask[0];
-        for (uint32_t r = 0; r < star->count; r++)
-            row[twins[star->ring[r]]] += mask[1 + r];
-        for (uint32_t f = 0; f < faces; f++)
-            row[twins[star->diagonals[f]]] += mask[1 + star->count + f];
-    }
-    limni_release(context, masks);
-    return LIMN_BAKE_OK;
-}
-
-/// The far end of the half edge that starts at the corner of a piece has tangents, which go on
-/// along the edge, and so has the middle of a quad.
-static limn_bake_status add_end_tangents(limni_context *context, const limni_rules *rules,
-                                         const limni_local_base *base, limni_fixed *tangents,
-                                         size_t table_size) {
-    const limni_star *const star = &base->corners[1];
-    uint32_t start = 0; // corner 0
-    while (star->ring[start] != 0)
-        start++;
-    LIMNI_TRY(add_corner_tangents(context, rules, base, 1, limni_star_opposite(star, start),
-                                  tangents, table_size));
-    if (base->mesh->domain != LIMN_DOMAIN_QUAD) return LIMN_BAKE_OK;
-    return add_corner_tangents(context, rules, base, 2, 0, tangents, table_size);
+/// In a piece at a corner, the far end of the half edge that starts there is new, and so is the
+/// middle of a quad.
+static uint32_t new_corners_of(const class_maker *maker) {
+    if (maker->kind != LIMNI_TABLE_CORNER) return 0;
+    return maker->domain->kind == LIMN_DOMAIN_QUAD ? 1u << 1 | 1u << 2 : 1u << 1;
 }
 
 static limn_bake_status fill_rows(limni_context *context, const limni_rules *rules,
@@ -290,13 +256,12 @@ static limn_bake_status fill_rows(limni_context *context, const limni_rules *rul
         (size_t)maker->coefficients.row_count * maker->coefficients.slot_count;
     const bool with_tangents = maker->coefficients.table_count == 3;
     const limni_rows rows = {.positions = maker->rows,
-                             .tangents = with_tangents ? maker->rows + table_size : NULL};
+                             .tangents = with_tangents ? maker->rows + table_size : NULL,
+                             .new_corners = new_corners_of(maker)};
     limni_neighbourhood neighbourhood;
     LIMNI_TRY(limni_local_neighbourhood(context, base, &neighbourhood));
     LIMNI_TRY(limni_subdivide(context, rules, &neighbourhood, maker->depth, LIMNI_PROJECT_TO_LIMIT,
                               &rows));
-    if (with_tangents && maker->kind == LIMNI_TABLE_CORNER)
-        LIMNI_TRY(add_end_tangents(context, rules, base, rows.tangents, table_size));
     limni_neighbourhood_end(context, &neighbourhood);
     return LIMN_BAKE_OK;
 }

@@ -9,7 +9,7 @@ enum {
     /// less.
     RING_MAX = LIMNI_LOCAL_BASE_MAX + 24,
     SLOT_MAX = RING_MAX + LIMN_CORNER_MAX,
-    KEY_MAX = 3 * LIMN_CORNER_MAX + 3 * RING_MAX + 2 * SLOT_MAX
+    KEY_MAX = 3 * LIMN_CORNER_MAX + 6 * RING_MAX + 2 * SLOT_MAX
 };
 
 static limn_bake_status allocate_base(limni_context *context, limni_local_base *base) {
@@ -17,8 +17,11 @@ static limn_bake_status allocate_base(limni_context *context, limni_local_base *
     base->twins = limni_allocate(context, SLOT_MAX, sizeof *base->twins);
     base->key = limni_allocate(context, KEY_MAX, sizeof *base->key);
     base->room = limni_allocate(context, 4 * (size_t)RING_MAX, sizeof *base->room);
-    return base->controls && base->twins && base->key && base->room ? LIMN_BAKE_OK
-                                                                    : LIMN_BAKE_MEMORY;
+    base->spokes = limni_allocate(context, SLOT_MAX, sizeof *base->spokes);
+    base->rings = limni_allocate(context, 3 * (size_t)RING_MAX, sizeof *base->rings);
+    return base->controls && base->twins && base->key && base->room && base->spokes && base->rings
+               ? LIMN_BAKE_OK
+               : LIMN_BAKE_MEMORY;
 }
 
 limn_bake_status limni_classifier_begin(limni_context *context, limni_classifier *classifier,
@@ -45,6 +48,8 @@ void limni_classifier_end(limni_context *context, limni_classifier *classifier) 
         limni_release(context, classifier->bases[b].twins);
         limni_release(context, classifier->bases[b].key);
         limni_release(context, classifier->bases[b].room);
+        limni_release(context, classifier->bases[b].spokes);
+        limni_release(context, classifier->bases[b].rings);
     }
 }
 
@@ -91,6 +96,44 @@ static void walk_ring(limni_classifier *classifier, limni_local_base *base, uint
     }
 }
 
+/// Half-edges that leave the ring vertices of a corner, to the corner where stars are closed.
+static void find_spokes(const limni_mesh *mesh, uint32_t half_edge, limni_local_base *base,
+                        const limni_classifier *classifier) {
+    const uint32_t corner = mesh->corners[half_edge], first = mesh->first[corner];
+    uint32_t h = limni_is_boundary(mesh, corner) ? first : half_edge;
+    const uint32_t start = h;
+    do {
+        const uint32_t incoming = limni_half_edge_previous(mesh, h);
+        base->spokes[classifier->slots[mesh->corners[incoming]]] = incoming;
+        if (mesh->pairs[h] == LIMNI_NONE) { // an open star begins: any half-edge will do
+            const uint32_t next = limni_half_edge_next(mesh, h);
+            base->spokes[classifier->slots[mesh->corners[next]]] = next;
+        }
+        h = mesh->pairs[incoming];
+    } while (h != LIMNI_NONE && h != start);
+}
+
+/// Walks the rings of the vertices next to the corners. Open ones start at their boundary, closed
+/// ones at a corner of the face, the last that they are next to.
+static void walk_second_rings(limni_classifier *classifier, limni_local_base *base) {
+    const limni_mesh *const mesh = classifier->mesh;
+    const uint32_t begin = mesh->offsets[base->face];
+    base->inner_count = base->control_count;
+    base->rings_size = 0;
+    for (uint32_t corner = 0; corner < base->corner_count; corner++)
+        find_spokes(mesh, begin + (corner + base->rotation) % base->corner_count, base, classifier);
+    for (uint32_t slot = base->corner_count; slot < base->inner_count; slot++) {
+        uint32_t *const words = base->rings + base->rings_size;
+        limni_star star = {.ring = words + 2};
+        limni_mesh_star(mesh, classifier->sharpness, base->spokes[slot], &star);
+        words[0] = star.count;
+        words[1] = star.closed;
+        for (uint32_t r = 0; r < star.count; r++)
+            star.ring[r] = slot_of(classifier, base, star.ring[r]);
+        base->rings_size += 2 + star.count;
+    }
+}
+
 /// Whether an edge is sharp, other than on a boundary whose ends are all alike to the rules.
 static bool has_creases(const limni_rules *rules, const limni_local_base *base) {
     const bool boundaries = rules->creases == LIMN_CREASES_LOMONT;
@@ -118,6 +161,10 @@ static void walk_rings(limni_classifier *classifier, limni_local_base *base) {
         walk_ring(classifier, base, begin + (corner + base->rotation) % base->corner_count, star);
         first += star->count;
     }
+    base->inner_count = base->corner_count;
+    base->rings_size = 0;
+    if (limni_scheme_of(classifier->rules, base->mesh->domain)->reach == 2)
+        walk_second_rings(classifier, base);
     if (has_creases(classifier->rules, base)) return;
     for (uint32_t corner = 0; corner < base->corner_count; corner++)
         base->corners[corner].edges = base->corners[corner].beyond = NULL;
@@ -152,6 +199,7 @@ static void write_key(limni_local_base *base, const limni_rules *rules) {
         key = append(key, star->ring, star->count);
         if (star->diagonals) key = append(key, star->diagonals, limni_star_face_count(star));
     }
+    key = append(key, base->rings, base->rings_size);
     for (const limni_star *star = corners; star < end && tagged; star++) {
         *key++ = star->sharpness;
         if (!star->edges) continue;
@@ -220,28 +268,46 @@ static bool is_ruled_out(const limni_mesh *mesh, uint32_t face, uint32_t rotatio
     return is_larger(valences, count, rotation);
 }
 
-static limn_bake_status check_size(limni_context *context, const limni_mesh *mesh, uint32_t face) {
-    const uint32_t size = limni_face_size(mesh, face);
-    const uint32_t most = LIMNI_LOCAL_BASE_MAX / (size == 3 ? 1 : 2);
+/// What the corners of a face have in their rings, and with a reach of 2 their neighbours. *widest:
+/// the corner with the most.
+static uint64_t sum_rings(const limni_mesh *mesh, uint32_t reach, uint32_t face, uint32_t *widest) {
     uint64_t sum = 0;
-    uint32_t widest = mesh->corners[mesh->offsets[face]];
-    for (uint32_t c = 0; c < size; c++) {
-        const uint32_t control = mesh->corners[mesh->offsets[face] + c];
+    *widest = mesh->corners[mesh->offsets[face]];
+    for (uint32_t h = mesh->offsets[face]; h < mesh->offsets[face + 1]; h++) {
+        const uint32_t control = mesh->corners[h];
         sum += mesh->valences[control];
-        if (mesh->valences[control] > mesh->valences[widest]) widest = control;
+        if (mesh->valences[control] > mesh->valences[*widest]) *widest = control;
+        uint32_t turning = mesh->first[control];
+        do {
+            if (reach == 1) break;
+            sum += 2 + mesh->valences[limni_half_edge_end(mesh, turning)];
+            const uint32_t incoming = limni_half_edge_previous(mesh, turning);
+            turning = mesh->pairs[incoming];
+            if (turning == LIMNI_NONE) sum += 2 + mesh->valences[mesh->corners[incoming]];
+        } while (turning != LIMNI_NONE && turning != mesh->first[control]);
     }
-    if (sum <= most) return LIMN_BAKE_OK;
-    limni_place control_text, face_text;
-    return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                      "%s: %s has valence %u: the corners of %s have more than %u edges in all",
-                      mesh->path ? mesh->path : mesh->name,
-                      limni_control_place(mesh, widest, control_text), mesh->valences[widest],
-                      limni_face_place(mesh, face, face_text), most);
+    return sum;
 }
 
-limn_bake_status limni_check_valences(limni_context *context, const limni_mesh *mesh) {
+static limn_bake_status check_size(limni_context *context, const limni_mesh *mesh, uint32_t reach,
+                                   uint32_t face) {
+    const uint32_t most = LIMNI_LOCAL_BASE_MAX / (limni_face_size(mesh, face) == 3 ? 1 : 2);
+    uint32_t widest;
+    if (sum_rings(mesh, reach, face, &widest) <= most) return LIMN_BAKE_OK;
+    limni_place control_text, face_text;
+    return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                      "%s: %s has valence %u: the corners of %s%s have more than %u edges in all",
+                      mesh->path ? mesh->path : mesh->name,
+                      limni_control_place(mesh, widest, control_text), mesh->valences[widest],
+                      limni_face_place(mesh, face, face_text),
+                      reach == 2 ? " and their neighbours" : "", most);
+}
+
+limn_bake_status limni_check_valences(limni_context *context, const limni_mesh *mesh,
+                                      const limni_rules *rules) {
+    const uint32_t reach = limni_scheme_of(rules, mesh->domain)->reach;
     for (uint32_t face = 0; face < mesh->face_count; face++) {
-        if (!mesh->holes[face]) LIMNI_TRY(check_size(context, mesh, face));
+        if (!mesh->holes[face]) LIMNI_TRY(check_size(context, mesh, reach, face));
     }
     return LIMN_BAKE_OK;
 }
@@ -271,7 +337,7 @@ limn_bake_status limni_local_neighbourhood(limni_context *context, const limni_l
                                    .sharpness = base->sharpness,
                                    .controls = base->controls,
                                    .control_count = base->control_count,
-                                   .inner_count = base->corner_count,
+                                   .inner_count = base->inner_count,
                                    .half_edge = base->mesh->offsets[base->face] + base->rotation,
                                    .with_edges = base->corners[0].edges};
     LIMNI_TRY(limni_neighbourhood_begin(context, &cutting, neighbourhood));

@@ -29,12 +29,18 @@ typedef struct limni_local_base {
     uint32_t corner_count;
     limni_star corners[LIMN_CORNER_MAX]; ///< with slots as their rings
     uint32_t control_count; ///< K: slots 0, 1, ... are the corners, the others follow around them
-    uint32_t *controls;     ///< [control_count] control points by slot
+    uint32_t inner_count; ///< of slots whose stars matter: the corners, and with a reach of 2 those
+                          ///< next to them
+    uint32_t *controls;   ///< [control_count] control points by slot
     uint32_t *twins; ///< [control_count] the first slot that was the same control point before the
                      ///< mesh was split
     uint32_t twin_count; ///< slots that are not the first
     uint32_t *room;      ///< what the stars point into
-    uint32_t *key;       ///< [key_size]
+    uint32_t *spokes;    ///< [inner_count] a half-edge from each slot to one before it
+    uint32_t *rings;     ///< [rings_size] what the key says of the stars of inner slots behind the
+                         ///< corners
+    uint32_t rings_size;
+    uint32_t *key; ///< [key_size]
     uint32_t key_size;
 } limni_local_base;
 
@@ -57,7 +63,8 @@ void limni_classifier_end(limni_context *context, limni_classifier *classifier);
 
 /// Refuses faces whose corners have more than LIMNI_LOCAL_BASE_MAX edges in all: to be called before
 /// anything else here.
-limn_bake_status limni_check_valences(limni_context *context, const limni_mesh *mesh);
+limn_bake_status limni_check_valences(limni_context *context, const limni_mesh *mesh,
+                                      const limni_rules *rules);
 
 /// The local base of a face in its canonical rotation. Valid until the next call.
 const limni_local_base *limni_classify(limni_classifier *classifier, uint32_t face);

@@ -3,6 +3,8 @@
 #include "output_file.h"
 #include "source.h"
 
+#include "numbers.h"
+
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,8 +20,12 @@ static const char help[] =
     "well.\n\n"
     "  -o, --output FILE     the file to write\n"
     "      --scheme NAME     loop (default), of triangles: other polygons are cut; catmark:\n"
-    "                        Catmull-Clark, of any polygons; or none: the faces as they are, with\n"
-    "                        sharp edges, triangles flat and others bilinear\n"
+    "                        Catmull-Clark, of any polygons; butterfly: the modified butterfly, "
+    "of\n"
+    "                        triangles, through the control points, without creases; or none: the\n"
+    "                        faces as they are, with sharp edges, triangles flat, others bilinear\n"
+    "      --tension W       of the butterfly, -0.25 to 0.25 (default 0): its stencil of ten "
+    "points\n"
     "      --weights NAME    vertex weights: loop (default) or warren\n"
     "      --boundary NAME   edge-only: boundaries are smooth curves; edge-and-corner: boundary\n"
     "                        vertices of a single face stay in place; none: faces at a boundary "
@@ -88,6 +94,7 @@ static void print_progress(void *user, const char *step, uint32_t done, uint32_t
 enum {
     OPTION_SCHEME = 256,
     OPTION_WEIGHTS,
+    OPTION_TENSION,
     OPTION_BOUNDARY,
     OPTION_CREASES,
     OPTION_CREASING,
@@ -101,6 +108,7 @@ static const struct option options[] = {
     {"output", required_argument, NULL, 'o'},
     {"scheme", required_argument, NULL, OPTION_SCHEME},
     {"weights", required_argument, NULL, OPTION_WEIGHTS},
+    {"tension", required_argument, NULL, OPTION_TENSION},
     {"boundary", required_argument, NULL, OPTION_BOUNDARY},
     {"creases", required_argument, NULL, OPTION_CREASES},
     {"creasing", required_argument, NULL, OPTION_CREASING},
@@ -115,11 +123,11 @@ static const struct option options[] = {
 
 /// The options that choose a name, and what is said when there is none such.
 typedef struct choice {
-    const char *names[4]; ///< up to a NULL
+    const char *names[5]; ///< up to a NULL
     const char *error;
 } choice;
 
-static const choice schemes = {{"loop", "catmark", "none"}, "there is no scheme '%s'"};
+static const choice schemes = {{"loop", "catmark", "butterfly", "none"}, "there is no scheme '%s'"};
 static const choice weights = {{"loop", "warren"}, "there are no weights '%s'"};
 static const choice boundaries = {{"edge-only", "edge-and-corner", "none"},
                                   "there is no boundary rule '%s'"};
@@ -150,6 +158,9 @@ static int parse_option(int option, arguments *given) {
         status = choose(&schemes, LIMN_SCHEME_LOOP, &chosen);
         desc->scheme = (limn_scheme)chosen;
         return status;
+    case OPTION_TENSION:
+        if (limni_parse_real(optarg, -0.25f, 0.25f, &desc->tension)) return LIMNI_EXIT_OK;
+        return limni_usage_error("bake", "'%s' is not a tension between -0.25 and 0.25", optarg);
     case OPTION_WEIGHTS:
         status = choose(&weights, LIMN_WEIGHTS_LOOP, &chosen);
         desc->weights = (limn_weights)chosen;
@@ -202,6 +213,14 @@ static int parse(int argc, char **argv, arguments *given) {
     if (optind == argc) return limni_usage_error("bake", "there is no input");
     if (!given->output || !given->output[0])
         return limni_usage_error("bake", "there is no output: -o OUT.limn");
+    const limn_bake_desc *const desc = &given->desc;
+    if (desc->weights != LIMN_WEIGHTS_LOOP && desc->scheme != LIMN_SCHEME_LOOP)
+        return limni_usage_error("bake", "--weights are those of --scheme loop");
+    if (desc->tension != 0 && desc->scheme != LIMN_SCHEME_BUTTERFLY)
+        return limni_usage_error("bake", "--tension is that of --scheme butterfly");
+    if (desc->creases == LIMN_CREASES_LOMONT &&
+        (desc->scheme == LIMN_SCHEME_CATMARK || desc->scheme == LIMN_SCHEME_BUTTERFLY))
+        return limni_usage_error("bake", "--creases lomont goes with --scheme loop");
     return LIMNI_EXIT_OK;
 }
 

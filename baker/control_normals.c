@@ -12,7 +12,7 @@ typedef struct builder {
     const limni_mesh_sharpness *sharpness;
     const limni_rules *rules;
     limni_control_normals *normals;
-    uint64_t weight_capacity;
+    uint64_t weight_capacity, ring_capacity;
     uint32_t side_capacity;
     uint32_t *first_weights; ///< [rules][valence_max + 1] masks where no edge is sharp but the
                              ///< boundary; LIMNI_NONE where there is none yet
@@ -53,12 +53,8 @@ static uint32_t ring_size(const limni_star *star) {
     return star->count + (star->diagonals ? limni_star_face_count(star) : 0);
 }
 
-/// Appends the two masks of a star to the weights: those of the ring. Masks sum to zero, so sums
-/// relative to the centre need no weight for it.
-static limn_bake_status write_mask(builder *b, const limni_star *star, uint32_t half_steps) {
+static limn_bake_status reserve_weights(builder *b, uint64_t size) {
     limni_control_normals *const normals = b->normals;
-    const uint32_t count = ring_size(star);
-    const uint64_t size = 2 * (uint64_t)count;
     if (normals->weight_count + size > b->weight_capacity) {
         b->weight_capacity = 2 * (b->weight_capacity + size);
         float *const weights =
@@ -66,10 +62,20 @@ static limn_bake_status write_mask(builder *b, const limni_star *star, uint32_t 
         if (!weights) return LIMN_BAKE_MEMORY;
         normals->weights = weights;
     }
-    LIMNI_TRY(limni_star_tangents(b->context, b->rules, star, half_steps, b->along, b->across));
     if (normals->weight_count + size > UINT32_MAX)
         return limni_fail(b->context, LIMN_BAKE_BAD_INPUT,
                           "the mesh has too many sharp vertices for exact normals");
+    return LIMN_BAKE_OK;
+}
+
+/// Appends the two masks of a star to the weights: those of the ring. Masks sum to zero, so sums
+/// relative to the centre need no weight for it.
+static limn_bake_status write_mask(builder *b, const limni_star *star, uint32_t half_steps) {
+    limni_control_normals *const normals = b->normals;
+    const uint32_t count = ring_size(star);
+    const uint64_t size = 2 * (uint64_t)count;
+    LIMNI_TRY(reserve_weights(b, size));
+    LIMNI_TRY(limni_star_tangents(b->context, b->rules, star, half_steps, b->along, b->across));
     float *weight = normals->weights + normals->weight_count;
     for (uint32_t w = 0; w < count; w++) {
         weight[w] = limni_fixed_to_float(b->along[1 + w]);
@@ -159,12 +165,96 @@ static limn_bake_status write_sides(builder *b, uint32_t control, const limni_st
     return LIMN_BAKE_OK;
 }
 
+/// Appends to a list what is not in it yet.
+static void list_once(uint32_t *controls, uint32_t *count, uint32_t control) {
+    for (uint32_t c = 0; c < *count; c++) {
+        if (controls[c] == control) return;
+    }
+    controls[(*count)++] = control;
+}
+
+/// Appends the ring of a control point to a list.
+static void list_ring(const limni_mesh *mesh, uint32_t control, uint32_t *controls,
+                      uint32_t *count) {
+    uint32_t h = mesh->first[control];
+    do {
+        const uint32_t incoming = limni_half_edge_previous(mesh, h);
+        list_once(controls, count, limni_half_edge_end(mesh, h));
+        h = mesh->pairs[incoming];
+        if (h == LIMNI_NONE) list_once(controls, count, mesh->corners[incoming]);
+    } while (h != LIMNI_NONE && h != mesh->first[control]);
+}
+
+/// A control point, those around it, and those around them. Returns how many; the first *inner have
+/// whole stars.
+static limn_bake_status list_two_rings(builder *b, uint32_t control, uint32_t **controls,
+                                       uint32_t *count, uint32_t *inner) {
+    const limni_mesh *const mesh = b->mesh;
+    *controls = limni_allocate(b->context, (1 + (size_t)b->valence_max) * (1 + b->valence_max),
+                               sizeof **controls);
+    if (!*controls) return LIMN_BAKE_MEMORY;
+    *count = 0;
+    list_once(*controls, count, control);
+    list_ring(mesh, control, *controls, count);
+    *inner = *count;
+    for (uint32_t c = 1; c < *inner; c++)
+        list_ring(mesh, (*controls)[c], *controls, count);
+    return LIMN_BAKE_OK;
+}
+
+/// Makes room for more of a ring.
+static limn_bake_status reserve_ring(builder *b, uint64_t size) {
+    if (b->normals->ring_size + size <= b->ring_capacity) return LIMN_BAKE_OK;
+    b->ring_capacity = 2 * (b->normals->ring_size + size);
+    uint32_t *const ring =
+        limni_resize(b->context, b->normals->ring, (size_t)b->ring_capacity, sizeof *ring);
+    if (!ring) return LIMN_BAKE_MEMORY;
+    b->normals->ring = ring;
+    return LIMN_BAKE_OK;
+}
+
+/// Where the scheme reads two rings: those are the ring, each control point once.
+static limn_bake_status write_wide_normal(builder *b, uint32_t control) {
+    limni_control_normals *const normals = b->normals;
+    uint32_t *controls, count, inner;
+    limni_neighbourhood around;
+    LIMNI_TRY(list_two_rings(b, control, &controls, &count, &inner));
+    const limni_cutting cutting = {.mesh = b->mesh,
+                                   .sharpness = b->sharpness,
+                                   .controls = controls,
+                                   .control_count = count,
+                                   .inner_count = inner,
+                                   .half_edge = b->mesh->first[control]};
+    LIMNI_TRY(limni_neighbourhood_begin(b->context, &cutting, &around));
+    limni_fixed *const along = limni_allocate(b->context, 2 * (size_t)count, sizeof *along);
+    if (!along) return LIMN_BAKE_MEMORY;
+    LIMNI_TRY(limni_vertex_tangents(b->context, b->rules, &around, along, along + count));
+    LIMNI_TRY(reserve_weights(b, 2 * ((uint64_t)count - 1)));
+    LIMNI_TRY(reserve_ring(b, count - 1));
+    normals->records[control] = (limn_file_normal){.first_ring = (uint32_t)normals->ring_size,
+                                                   .ring_count = count - 1,
+                                                   .first_weight = (uint32_t)normals->weight_count};
+    for (uint32_t t = 0; t < 2; t++) {
+        for (uint32_t c = 1; c < count; c++)
+            normals->weights[normals->weight_count++] = limni_fixed_to_float(along[t * count + c]);
+    }
+    memcpy(normals->ring + normals->ring_size, controls + 1, (count - 1) * sizeof *controls);
+    normals->ring_size += count - 1;
+    limni_release(b->context, along);
+    limni_release(b->context, controls);
+    limni_neighbourhood_end(b->context, &around);
+    return LIMN_BAKE_OK;
+}
+
 static limn_bake_status write_normal(builder *b, uint32_t control) {
     limni_control_normals *const normals = b->normals;
     if (b->mesh->first[control] == LIMNI_NONE) {
         normals->records[control] = (limn_file_normal){.first_ring = (uint32_t)normals->ring_size};
         return LIMN_BAKE_OK;
     }
+    if (limni_scheme_of(b->rules, b->mesh->domain)->reach == 2)
+        return write_wide_normal(b, control);
+    LIMNI_TRY(reserve_ring(b, 2 * (uint64_t)b->mesh->valences[control]));
     uint32_t *const ring = normals->ring + normals->ring_size;
     limni_star star = {.ring = ring,
                        .edges = b->edges,
@@ -178,21 +268,16 @@ static limn_bake_status write_normal(builder *b, uint32_t control) {
 
 static limn_bake_status allocate_normals(builder *b) {
     const limni_mesh *const mesh = b->mesh;
-    uint64_t room = 0;
     bool tagged = b->sharpness->edges;
-    for (uint32_t c = 0; c < mesh->control_count; c++) {
-        room += (mesh->domain == LIMN_DOMAIN_QUAD ? 2 : 1) * (uint64_t)mesh->valences[c];
+    for (uint32_t c = 0; c < mesh->control_count; c++)
         tagged |= b->sharpness->vertices[c] > 0;
-    }
     *b->normals = (limni_control_normals){
         .records = limni_allocate(b->context, mesh->control_count, sizeof *b->normals->records),
-        .ring = limni_allocate(b->context, (size_t)room, sizeof *b->normals->ring),
         .corners =
             tagged ? limni_allocate(b->context, mesh->half_edge_count, sizeof(uint32_t)) : NULL,
     };
-    return b->normals->records && b->normals->ring && (b->normals->corners || !tagged)
-               ? LIMN_BAKE_OK
-               : LIMN_BAKE_MEMORY;
+    return b->normals->records && (b->normals->corners || !tagged) ? LIMN_BAKE_OK
+                                                                   : LIMN_BAKE_MEMORY;
 }
 
 limn_bake_status limni_control_normals_build(limni_context *context, const limni_mesh *mesh,

@@ -39,3 +39,11 @@ limni_fixed_unit limni_fixed_turn(uint32_t j, uint32_t n) {
         return (limni_fixed_unit){.cosine = unit.sine, .sine = -unit.cosine};
     }
 }
+
+limni_fixed limni_fixed_root(limni_wide square) {
+    limni_wide root = 0;
+    for (limni_wide bit = (limni_wide)1 << 62; bit > 0; bit >>= 1) {
+        if ((root + bit) * (root + bit) <= square) root += bit;
+    }
+    return (limni_fixed)root;
+}

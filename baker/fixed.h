@@ -39,6 +39,9 @@ static inline limni_fixed limni_fixed_divide(limni_fixed a, limni_fixed b) {
                                : -limni_wide_divide(scaled, -(limni_wide)b));
 }
 
+/// The root of a number in Q8.120, in Q4.60, rounded down: bit by bit, the same everywhere.
+limni_fixed limni_fixed_root(limni_wide square);
+
 /// The ratio of two integers; |numerator / denominator| < 8, denominator > 0.
 static inline limni_fixed limni_fixed_ratio(int64_t numerator, int64_t denominator) {
     return (limni_fixed)limni_wide_divide((limni_wide)numerator * LIMNI_FIXED_ONE, denominator);

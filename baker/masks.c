@@ -36,10 +36,11 @@ limn_bake_status limni_masks_begin(limni_context *context, limni_masks *masks,
         .mesh = mesh,
         .sharpness = sharpness,
         .rules = rules,
-        .scheme = limni_scheme_of(mesh->domain),
+        .scheme = limni_scheme_of(rules, mesh->domain),
         .widest = widest,
-        .terms = limni_allocate(context, find_term_max(mesh), sizeof *masks->terms),
-        .room = limni_allocate(context, 5 * widest, sizeof *masks->room),
+        .terms =
+            limni_allocate(context, find_term_max(mesh) + 2 * widest + 32, sizeof *masks->terms),
+        .room = limni_allocate(context, 7 * widest, sizeof *masks->room),
     };
     for (int w = 0; w < 2; w++)
         masks->weights[w] = limni_allocate(context, 1 + 2 * widest, sizeof *masks->weights[w]);
@@ -50,6 +51,8 @@ limn_bake_status limni_masks_begin(limni_context *context, limni_masks *masks,
                                .beyond = masks->room + 2 * widest,
                                .diagonals = masks->room + 3 * widest};
     masks->ring_edges = masks->room + 4 * widest;
+    masks->other = (limni_star){.ring = masks->room + 5 * widest};
+    masks->other_edges = masks->room + 6 * widest;
     return LIMN_BAKE_OK;
 }
 
@@ -62,23 +65,40 @@ void limni_masks_end(limni_context *context, limni_masks *masks) {
 
 // ---- Stars
 
+/// A half-edge to each ring vertex.
+static void list_edges(const limni_mesh *mesh, uint32_t h, uint32_t count, uint32_t *edges) {
+    for (uint32_t r = 0; r < count; r++) {
+        const uint32_t previous = limni_half_edge_previous(mesh, h);
+        edges[r] = h;
+        // Beyond the last face of an open star there is the edge that comes in.
+        h = mesh->pairs[previous] == LIMNI_NONE ? previous : mesh->pairs[previous];
+    }
+}
+
 void limni_masks_look(limni_masks *masks, uint32_t control, uint32_t h) {
     const limni_mesh *const mesh = masks->mesh;
-    limni_star *const star = &masks->star;
-    uint32_t turning =
-        h == LIMNI_NONE || limni_is_boundary(mesh, control) ? mesh->first[control] : h;
-    limni_mesh_star(mesh, masks->sharpness, turning, star);
-    for (uint32_t r = 0; r < star->count; r++) {
-        const uint32_t previous = limni_half_edge_previous(mesh, turning);
-        masks->ring_edges[r] = turning;
-        // Beyond the last face of an open star there is the edge that comes in.
-        turning = mesh->pairs[previous] == LIMNI_NONE ? previous : mesh->pairs[previous];
-    }
+    const bool given = h != LIMNI_NONE && !limni_is_boundary(mesh, control);
+    const uint32_t first = given ? h : mesh->first[control];
+    masks->vertex = control;
+    limni_mesh_star(mesh, masks->sharpness, first, &masks->star);
+    list_edges(mesh, first, masks->star.count, masks->ring_edges);
+}
+
+uint32_t limni_masks_look_beside(limni_masks *masks, uint32_t r) {
+    const limni_mesh *const mesh = masks->mesh;
+    const uint32_t first = mesh->first[masks->star.ring[r]];
+    const uint32_t h = masks->ring_edges[r], pair = mesh->pairs[h];
+    limni_mesh_star(mesh, masks->sharpness, first, &masks->other);
+    list_edges(mesh, first, masks->other.count, masks->other_edges);
+    uint32_t place = 0;
+    while (masks->other_edges[place] != h && masks->other_edges[place] != pair)
+        place++;
+    return place;
 }
 
 // ---- Terms
 
-static void add_term(limni_masks *masks, uint32_t control, limni_fixed weight) {
+void limni_masks_add(limni_masks *masks, uint32_t control, limni_fixed weight) {
     if (weight != 0) masks->terms[masks->term_count++] = (limni_term){control, weight};
 }
 
@@ -87,7 +107,7 @@ static void add_middle(limni_masks *masks, uint32_t face, limni_fixed weight) {
     const limni_mesh *const mesh = masks->mesh;
     const limni_fixed share = (limni_fixed)limni_wide_divide(weight, limni_face_size(mesh, face));
     for (uint32_t h = mesh->offsets[face]; h < mesh->offsets[face + 1]; h++)
-        add_term(masks, mesh->corners[h], share);
+        limni_masks_add(masks, mesh->corners[h], share);
 }
 
 void limni_masks_vertex(limni_masks *masks, uint32_t control) {
@@ -95,9 +115,9 @@ void limni_masks_vertex(limni_masks *masks, uint32_t control) {
     limni_fixed *const weights = masks->weights[0];
     masks->scheme->vertex_mask(masks->rules, star, weights);
     masks->term_count = 0;
-    add_term(masks, control, weights[0]);
+    limni_masks_add(masks, control, weights[0]);
     for (uint32_t r = 0; r < star->count; r++)
-        add_term(masks, star->ring[r], weights[1 + r]);
+        limni_masks_add(masks, star->ring[r], weights[1 + r]);
     if (masks->scheme->domain != LIMN_DOMAIN_QUAD) return;
     for (uint32_t f = 0; f < limni_star_face_count(star); f++)
         add_middle(masks, masks->mesh->face_of[masks->ring_edges[f]], weights[1 + star->count + f]);
@@ -110,17 +130,22 @@ static void add_beside(limni_masks *masks, uint32_t h, limni_fixed weight) {
     if (masks->scheme->domain == LIMN_DOMAIN_QUAD) {
         add_middle(masks, mesh->face_of[h], weight);
     } else {
-        add_term(masks, mesh->corners[limni_half_edge_previous(mesh, h)], weight);
+        limni_masks_add(masks, mesh->corners[limni_half_edge_previous(mesh, h)], weight);
     }
 }
 
 void limni_masks_edge(limni_masks *masks, uint32_t control, uint32_t r) {
+    if (masks->scheme->edge_terms) {
+        masks->term_count = 0;
+        masks->scheme->edge_terms(masks, r, limni_masks_look_beside(masks, r));
+        return;
+    }
     const limni_edge_feature feature = limni_star_edge_feature(masks->rules, &masks->star, r);
     const limni_edge_mask mask = masks->scheme->edge_mask(&feature);
     const uint32_t h = masks->ring_edges[r];
     masks->term_count = 0;
-    add_term(masks, control, mask.ends[0]);
-    add_term(masks, masks->star.ring[r], mask.ends[1]);
+    limni_masks_add(masks, control, mask.ends[0]);
+    limni_masks_add(masks, masks->star.ring[r], mask.ends[1]);
     add_beside(masks, h, mask.beside);
     add_beside(masks, masks->mesh->pairs[h], mask.beside);
 }
@@ -128,4 +153,9 @@ void limni_masks_edge(limni_masks *masks, uint32_t control, uint32_t r) {
 void limni_masks_face(limni_masks *masks, uint32_t face) {
     masks->term_count = 0;
     add_middle(masks, face, LIMNI_FIXED_ONE);
+}
+
+void limni_masks_tangent(limni_masks *masks, uint32_t half_steps, int tangent) {
+    masks->term_count = 0;
+    masks->scheme->tangent_terms(masks, half_steps, tangent);
 }

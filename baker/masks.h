@@ -16,7 +16,8 @@ typedef struct limni_masks {
     const limni_mesh_sharpness *sharpness;
     const limni_rules *rules;
     const limni_scheme *scheme;
-    limni_star star; ///< of the vertex that was looked at
+    uint32_t vertex; ///< that was looked at
+    limni_star star; ///< its star
     uint32_t
         *ring_edges; ///< [star.count] a half-edge to each ring vertex, which leaves the vertex;
                      ///< in open stars the last leads to it
@@ -24,8 +25,10 @@ typedef struct limni_masks {
     limni_term *terms;       ///< [term_count] of the point that was asked for; a vertex may occur
                              ///< several times
     uint32_t term_count;
-    size_t widest;  ///< the highest valence
-    uint32_t *room; ///< what the star points into
+    size_t widest;         ///< the highest valence
+    limni_star other;      ///< of a vertex next to it, see limni_masks_look_beside()
+    uint32_t *other_edges; ///< as ring_edges
+    uint32_t *room;        ///< what the stars point into
 } limni_masks;
 
 limn_bake_status limni_masks_begin(limni_context *context, limni_masks *masks,
@@ -37,10 +40,17 @@ void limni_masks_end(limni_context *context, limni_masks *masks);
 /// it is given.
 void limni_masks_look(limni_masks *masks, uint32_t control, uint32_t h);
 
-/// Set the terms: of a vertex; of the middle of an edge, seen from its end at the star that was
+/// Sets `other` to the star of ring vertex r, and returns the place of the vertex in it.
+uint32_t limni_masks_look_beside(limni_masks *masks, uint32_t r);
+
+void limni_masks_add(limni_masks *masks, uint32_t control, limni_fixed weight);
+
+/// Set the terms: of a tangent, see limni_scheme;
+/// of a vertex; of the middle of an edge, seen from its end at the star that was
 /// looked at, where it leads to ring vertex r; and of a face.
 void limni_masks_vertex(limni_masks *masks, uint32_t control);
 void limni_masks_edge(limni_masks *masks, uint32_t control, uint32_t r);
 void limni_masks_face(limni_masks *masks, uint32_t face);
+void limni_masks_tangent(limni_masks *masks, uint32_t half_steps, int tangent);
 
 #endif

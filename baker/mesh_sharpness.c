@@ -67,8 +67,14 @@ static bool is_flat(const limni_rules *rules) {
     return rules->scheme == LIMN_SCHEME_NONE;
 }
 
+/// The butterfly has no rules for what is sharp.
+static bool is_ignored(const limni_rules *rules) {
+    return rules->scheme == LIMN_SCHEME_BUTTERFLY;
+}
+
 /// Whether an edge is sharp, by its tag or to Lomont's rules as a boundary.
 static bool has_sharp_edges(const limni_mesh *mesh, const limni_rules *rules) {
+    if (is_ignored(rules)) return false;
     return is_flat(rules) || (rules->creases == LIMN_CREASES_LOMONT && limni_has_boundary(mesh)) ||
            any_above_zero(mesh->edge_sharpness, mesh->half_edge_count);
 }
@@ -137,9 +143,10 @@ limn_bake_status limni_mesh_sharpness_begin(limni_context *context, const limni_
     *sharpness = (limni_mesh_sharpness){
         .vertices = limni_allocate(context, mesh->control_count, sizeof *sharpness->vertices)};
     if (!sharpness->vertices) return LIMN_BAKE_MEMORY;
-    const bool sharpen = rules->boundary == LIMN_BOUNDARY_EDGE_AND_CORNER;
+    const bool sharpen = rules->boundary == LIMN_BOUNDARY_EDGE_AND_CORNER && !is_ignored(rules);
     for (uint32_t c = 0; c < mesh->control_count; c++) {
-        const float tag = mesh->vertex_sharpness ? mesh->vertex_sharpness[c] : 0;
+        const bool tagged = mesh->vertex_sharpness && !is_ignored(rules);
+        const float tag = tagged ? mesh->vertex_sharpness[c] : 0;
         sharpness->vertices[c] = is_flat(rules) || (sharpen && is_boundary_corner(mesh, c))
                                      ? LIMNI_SHARPNESS_INFINITE
                                      : limni_sharpness_from_float(tag);

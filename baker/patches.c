@@ -29,7 +29,7 @@ static uint32_t slot_size_of(const limni_class *class) {
 
 static limn_bake_status begin_arrangement(limni_context *context, arrangement *a) {
     const limni_mesh *const mesh = a->mesh;
-    LIMNI_TRY(limni_check_valences(context, mesh));
+    LIMNI_TRY(limni_check_valences(context, mesh, a->rules));
     LIMNI_TRY(limni_classifier_begin(context, &a->classifier, mesh, a->base->sharpness, a->rules));
     LIMNI_TRY(limni_assignment_begin(context, mesh->face_count, &a->assigned));
     a->class_indices = limni_allocate(context, mesh->face_count, sizeof *a->class_indices);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "scheme.h"
 
-const limni_scheme *limni_scheme_of(limn_domain_kind domain) {
+const limni_scheme *limni_scheme_of(const limni_rules *rules, limn_domain_kind domain) {
+    if (rules->scheme == LIMN_SCHEME_BUTTERFLY) return &limni_scheme_butterfly;
     return domain == LIMN_DOMAIN_QUAD ? &limni_scheme_catmark : &limni_scheme_loop;
 }
 

@@ -21,8 +21,11 @@ typedef struct limni_edge_mask {
 /// others of its diagonal. They sum to exactly 1. The limit is that of a settled star.
 typedef void limni_mask_fn(const limni_rules *rules, const limni_star *star, limni_fixed *weights);
 
+struct limni_masks;
+
 typedef struct limni_scheme {
     limn_domain_kind domain;
+    uint32_t reach; ///< edges from the patch to the vertices whose stars its coefficients depend on
     limni_mask_fn *vertex_mask, *limit_mask;
     limni_edge_mask (*edge_mask)(const limni_edge_feature *feature);
     /// Weights of two tangents of the limit surface at a settled star, as above; they sum to 0.
@@ -33,12 +36,17 @@ typedef struct limni_scheme {
     /// that side; at a corner, of the face that starts there.
     void (*tangent_masks)(const limni_rules *rules, const limni_star *star, uint32_t half_steps,
                           limni_fixed *along, limni_fixed *across);
+    /// With a reach of 2, in place of edge_mask and tangent_masks: these read more than one star, and
+    /// add terms (masks.h). Of the edge between two vertices that were looked at; of one tangent, 0:
+    /// along, 1: across, at a vertex that was looked at one level after its own.
+    void (*edge_terms)(struct limni_masks *masks, uint32_t r, uint32_t other_r);
+    void (*tangent_terms)(struct limni_masks *masks, uint32_t half_steps, int tangent);
 } limni_scheme;
 
-extern const limni_scheme limni_scheme_loop, limni_scheme_catmark;
+extern const limni_scheme limni_scheme_loop, limni_scheme_catmark, limni_scheme_butterfly;
 
-/// The masks for faces of a domain.
-const limni_scheme *limni_scheme_of(limn_domain_kind domain);
+/// The masks by some rules, for faces of a domain.
+const limni_scheme *limni_scheme_of(const limni_rules *rules, limn_domain_kind domain);
 
 // ---- What schemes share
 

@@ -68,15 +68,6 @@ static void limit_mask(const limni_rules *rules, const limni_star *star, limni_f
 
 // ---- Tangents
 
-/// The integer root: bit by bit, the same everywhere. Of a Q.120, in Q.60.
-static limni_fixed root_of(limni_wide square) {
-    limni_wide root = 0;
-    for (limni_wide bit = (limni_wide)1 << 62; bit > 0; bit >>= 1) {
-        if ((root + bit) * (root + bit) <= square) root += bit;
-    }
-    return (limni_fixed)root;
-}
-
 /// After OpenSubdiv and others, all divided by 4: neighbour j has A cos t(j), t(j) = 2 pi j / n, and
 /// diagonal j cos t(j) + cos t(j + 1), where A = 1 + cos(2 pi / n) + cos(pi / n) sqrt(2 (9 + cos(2
 /// pi / n))).
@@ -85,7 +76,7 @@ static void smooth_tangents(const limni_star *star, uint32_t half_steps, limni_f
     const uint32_t n = star->count;
     const limni_fixed c = limni_fixed_turn(1, n).cosine, half = limni_fixed_turn(1, 2 * n).cosine;
     const limni_wide square = 2 * (9 * (limni_wide)LIMNI_FIXED_ONE + c);
-    const limni_fixed root = root_of(square << LIMNI_FIXED_BITS);
+    const limni_fixed root = limni_fixed_root(square << LIMNI_FIXED_BITS);
     const limni_fixed a = (LIMNI_FIXED_ONE + c) / 4 + limni_fixed_multiply(half, root / 4);
     along[0] = across[0] = 0;
     for (uint32_t r = 0; r < n; r++) {
@@ -115,7 +106,7 @@ static void spline_tangent(const limni_star *star, limni_sector s, limni_fixed *
     }
     const limni_fixed_unit z = limni_fixed_turn(1, 2 * faces);
     const limni_wide c = z.cosine;
-    const limni_fixed root = root_of((c + 9 * (limni_wide)one) * (c + one));
+    const limni_fixed root = limni_fixed_root((c + 9 * (limni_wide)one) * (c + one));
     const limni_fixed eigenvalue =
         (limni_fixed)limni_wide_divide(5 * (limni_wide)one + c + root, 16);
     const limni_fixed divisor = 4 * (4 * eigenvalue - one);
@@ -165,6 +156,7 @@ static void tangent_masks(const limni_rules *rules, const limni_star *star, uint
 
 const limni_scheme limni_scheme_catmark = {
     .domain = LIMN_DOMAIN_QUAD,
+    .reach = 1,
     .vertex_mask = vertex_mask,
     .limit_mask = limit_mask,
     .edge_mask = edge_mask,

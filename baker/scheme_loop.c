@@ -168,6 +168,7 @@ static limni_edge_mask edge_mask(const limni_edge_feature *feature) {
 
 const limni_scheme limni_scheme_loop = {
     .domain = LIMN_DOMAIN_TRIANGLE,
+    .reach = 1,
     .vertex_mask = vertex_mask,
     .limit_mask = limit_mask,
     .edge_mask = edge_mask,

@@ -11,9 +11,12 @@
 
 #include <string.h>
 
+enum { ROWS_MAX = 289 };
+
 typedef struct subdivision {
     limni_context *context;
     const limni_rules *rules;
+    const limni_scheme *scheme;
     const limn_domain *domain;
     uint32_t control_count;
     limni_wide *sums; ///< [control_count]
@@ -67,6 +70,7 @@ static limn_bake_status begin_subdivision(limni_context *context, const limni_ru
     const uint32_t control_count = neighbourhood->mesh.control_count;
     *s = (subdivision){.context = context,
                        .rules = rules,
+                       .scheme = limni_scheme_of(rules, neighbourhood->mesh.domain),
                        .domain = limn_domain_get(neighbourhood->mesh.domain),
                        .control_count = control_count,
                        .sums = limni_allocate(context, control_count, sizeof *s->sums)};
@@ -107,7 +111,7 @@ typedef struct selection {
     bool *inside;       ///< [faces]
     uint32_t *controls; ///< [kept_count] points by slot: the core first
     uint32_t *slots;    ///< [points] or LIMNI_NONE
-    uint32_t core_count, kept_count;
+    uint32_t core_count, inner_count, kept_count;
 } selection;
 
 static limn_bake_status begin_selection(const subdivision *s, const limni_refined *refined,
@@ -175,20 +179,29 @@ static void keep(selection *kept, uint32_t point) {
     kept->controls[kept->kept_count++] = point;
 }
 
-/// The core, and all other corners of the faces around it.
-static void select_points(selection *kept) {
+/// All other corners of the faces around the points so far.
+static void keep_around(selection *kept) {
     const limni_mesh *const mesh = &kept->refined->mesh;
-    for (uint32_t point = 0; point < mesh->control_count; point++) {
-        if (kept->rows[point] != LIMNI_NONE) keep(kept, point);
-    }
-    kept->core_count = kept->kept_count;
+    const uint32_t count = kept->kept_count;
     for (uint32_t face = 0; face < mesh->face_count; face++) {
         bool touches = false;
         for (uint32_t h = mesh->offsets[face]; h < mesh->offsets[face + 1]; h++)
-            touches |= kept->slots[mesh->corners[h]] < kept->core_count;
+            touches |= kept->slots[mesh->corners[h]] < count;
         for (uint32_t h = mesh->offsets[face]; h < mesh->offsets[face + 1] && touches; h++)
             keep(kept, mesh->corners[h]);
     }
+}
+
+/// The core, what is around it as far as stars matter, and the rest of these stars.
+static void select_points(const subdivision *s, selection *kept) {
+    for (uint32_t point = 0; point < kept->refined->mesh.control_count; point++) {
+        if (kept->rows[point] != LIMNI_NONE) keep(kept, point);
+    }
+    kept->core_count = kept->kept_count;
+    for (uint32_t reach = 1; reach < s->scheme->reach; reach++)
+        keep_around(kept);
+    kept->inner_count = kept->kept_count;
+    keep_around(kept);
 }
 
 /// The coefficients of the points that are kept, of which each has a whole mask.
@@ -208,7 +221,8 @@ static limn_bake_status apply_masks(const subdivision *s, const level *l, const 
         for (uint32_t r = 0; r < masks.star.count; r++) {
             const uint32_t slot = kept->slots[refined->edge_points[masks.ring_edges[r]]];
             const uint32_t other = masks.star.ring[r];
-            if (slot == LIMNI_NONE || (other < v && mesh->first[other] != LIMNI_NONE)) continue;
+            const bool whole = mesh->first[other] != LIMNI_NONE;
+            if (slot == LIMNI_NONE || (whole ? other < v : s->scheme->reach > 1)) continue;
             limni_masks_edge(&masks, v, r);
             sum_terms(s, l, &masks, coefficients_of(s, next, slot));
         }
@@ -229,7 +243,7 @@ static limn_bake_status cut_out(const subdivision *s, const selection *kept, lev
                                    .sharpness = &refined->sharpness,
                                    .controls = kept->controls,
                                    .control_count = kept->kept_count,
-                                   .inner_count = kept->core_count,
+                                   .inner_count = kept->inner_count,
                                    .half_edge = refined->mesh.first[kept->controls[0]],
                                    .with_edges = true};
     limni_neighbourhood part;
@@ -250,7 +264,7 @@ static limn_bake_status refine(const subdivision *s, const level *l, level *next
     LIMNI_TRY(limni_refine(s->context, &l->mesh, &l->sharpness, s->rules, &refined));
     LIMNI_TRY(begin_selection(s, &refined, &kept));
     find_rows(s, l, &kept);
-    select_points(&kept);
+    select_points(s, &kept);
     LIMNI_TRY(cut_out(s, &kept, next));
     LIMNI_TRY(apply_masks(s, l, &kept, next));
     end_selection(s, &kept);
@@ -347,6 +361,14 @@ static limn_bake_status project_vertex(const subdivision *s, const level *l,
     return LIMN_BAKE_OK;
 }
 
+/// The place of a row in a ring.
+static uint32_t place_in_ring(const level *l, const limni_star *star, uint32_t row) {
+    uint32_t r = 0;
+    while (r + 1 < star->count && l->rows[star->ring[r]] != row)
+        r++;
+    return r;
+}
+
 /// In half steps around a ring, where the tangents of a row start: on an edge, at the next row along
 /// it; inside, halfway between the directions of i and j, so that mirrored rows have mirrored
 /// tangents.
@@ -363,15 +385,50 @@ static uint32_t tangent_start(const subdivision *s, const level *l, const limni_
         dj = (end.j - start.j) / LIMN_GRID_SIZE;
     }
     const uint32_t next = s->row_at[place.i + step * di][place.j + step * dj];
-    uint32_t r = 0;
-    while (r + 1 < star->count && l->rows[star->ring[r]] != next)
-        r++;
-    return 2 * r + (place.edges == 0);
+    return 2 * place_in_ring(l, star, next) + (place.edges == 0);
+}
+
+/// Likewise at a corner that is new: corner 1 where edge 0 would go on, others anywhere.
+static uint32_t corner_tangent_start(const subdivision *s, const level *l, const limni_star *star,
+                                     uint32_t corner, int depth) {
+    if (corner != 1) return 0;
+    const uint32_t before = s->row_at[LIMN_GRID_SIZE - (LIMN_GRID_SIZE >> depth)][0];
+    return limni_star_opposite(star, place_in_ring(l, star, before));
+}
+
+/// The tangents of all rows that have them, from the vertices of the level behind theirs.
+///
+/// half_steps  [row_counts[depth]] where they start; LIMNI_NONE: none are wanted
+static limn_bake_status project_later(const subdivision *s, const level *l,
+                                      const uint32_t *half_steps, size_t table_size,
+                                      limni_fixed *tangents) {
+    level still = *l, next; // no new rows
+    still.inside = limni_allocate_zeroed(s->context, l->mesh.face_count, sizeof *still.inside);
+    if (!still.inside) return LIMN_BAKE_MEMORY;
+    limni_masks masks;
+    LIMNI_TRY(refine(s, &still, &next));
+    LIMNI_TRY(limni_masks_begin(s->context, &masks, &next.mesh, &next.sharpness, s->rules));
+    for (uint32_t vertex = 0; vertex < next.mesh.control_count; vertex++) {
+        const uint32_t row = next.rows[vertex];
+        if (row == LIMNI_NONE || half_steps[row] == LIMNI_NONE) continue;
+        limni_masks_look(&masks, vertex, LIMNI_NONE);
+        for (int t = 0; t < 2; t++) {
+            limni_masks_tangent(&masks, half_steps[row], t);
+            sum_terms(s, &next, &masks,
+                      tangents + (size_t)t * table_size + (size_t)row * s->control_count);
+        }
+    }
+    limni_masks_end(s->context, &masks);
+    release_level(s, &next);
+    limni_release(s->context, still.inside);
+    return LIMN_BAKE_OK;
 }
 
 static limn_bake_status project_rows(const subdivision *s, const level *l, int depth,
                                      const limni_rows *rows) {
     const size_t table_size = (size_t)s->domain->row_counts[depth] * s->control_count;
+    const bool later = s->scheme->tangent_terms;
+    uint32_t half_steps[ROWS_MAX];
     limni_masks masks;
     LIMNI_TRY(limni_masks_begin(s->context, &masks, &l->mesh, &l->sharpness, s->rules));
     if (rows->tangents) memset(rows->tangents, 0, 2 * table_size * sizeof *rows->tangents);
@@ -381,15 +438,20 @@ static limn_bake_status project_rows(const subdivision *s, const level *l, int d
         if (row == LIMNI_NONE) continue;
         limit_row dst = {.position = rows->positions + first};
         limni_masks_look(&masks, vertex, LIMNI_NONE);
-        if (rows->tangents && row >= s->domain->corner_count) {
-            dst.tangents[0] = rows->tangents + first;
+        const bool corner = row < s->domain->corner_count;
+        half_steps[row] = LIMNI_NONE;
+        if (rows->tangents && (!corner || rows->new_corners >> row & 1)) {
+            half_steps[row] = corner ? corner_tangent_start(s, l, &masks.star, row, depth)
+                                     : tangent_start(s, l, &masks.star, row, depth);
+            dst.half_steps = half_steps[row];
+            dst.tangents[0] = later ? NULL : rows->tangents + first;
             dst.tangents[1] = rows->tangents + table_size + first;
-            dst.half_steps = tangent_start(s, l, &masks.star, row, depth);
         }
         LIMNI_TRY(project_vertex(s, l, &masks, vertex, &dst));
     }
     limni_masks_end(s->context, &masks);
-    return LIMN_BAKE_OK;
+    if (!later || !rows->tangents) return LIMN_BAKE_OK;
+    return project_later(s, l, half_steps, table_size, rows->tangents);
 }
 
 // ---- All levels
@@ -462,5 +524,33 @@ limn_bake_status limni_star_tangents(limni_context *context, const limni_rules *
     end_first(&s, &l);
     end_subdivision(&s);
     limni_neighbourhood_end(context, &fan);
+    return LIMN_BAKE_OK;
+}
+
+limn_bake_status limni_vertex_tangents(limni_context *context, const limni_rules *rules,
+                                       const limni_neighbourhood *neighbourhood, limni_fixed *along,
+                                       limni_fixed *across) {
+    subdivision s;
+    level first, next, *l = &first;
+    limni_masks masks;
+    LIMNI_TRY(begin_subdivision(context, rules, neighbourhood, &s));
+    LIMNI_TRY(begin(&s, neighbourhood, &first));
+    first.rows[0] = 0;
+    // With one face there is no tangent plane to come nearer to.
+    const bool alone = neighbourhood->mesh.valences[0] == 2 && limni_is_boundary(&first.mesh, 0);
+    if (!alone) {
+        LIMNI_TRY(refine(&s, &first, &next));
+        l = &next;
+    }
+    LIMNI_TRY(limni_masks_begin(context, &masks, &l->mesh, &l->sharpness, rules));
+    limni_masks_look(&masks, 0, LIMNI_NONE);
+    for (int t = 0; t < 2; t++) {
+        limni_masks_tangent(&masks, 0, t);
+        sum_terms(&s, l, &masks, t == 0 ? along : across);
+    }
+    limni_masks_end(context, &masks);
+    if (!alone) release_level(&s, &next);
+    end_first(&s, &first);
+    end_subdivision(&s);
     return LIMN_BAKE_OK;
 }

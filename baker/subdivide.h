@@ -18,7 +18,9 @@ typedef struct limni_rows {
     limni_fixed *tangents;  ///< NULL, or [2][row_counts[depth]][K] its two tangents, only of the
                             ///< limit. Rows inside an edge have them along the edge and across, so
                             ///< that the neighbour has both negated, or on a crease the own side's;
-                            ///< the corners, whose normals belong to the control points, have zeros
+                            ///< corners, whose normals belong to the control points, have zeros
+    uint32_t new_corners; ///< bit c: corner c is new all the same and has tangents; corner 1 along
+                          ///< edge 0, as if that went on
 } limni_rows;
 
 /// Subdivides face 0 of a neighbourhood symbolically, `depth` times, 0 to LIMN_LEVEL_MAX.
@@ -33,5 +35,13 @@ limn_bake_status limni_subdivide(limni_context *context, const limni_rules *rule
 limn_bake_status limni_star_tangents(limni_context *context, const limni_rules *rules,
                                      const limni_star *star, uint32_t half_steps,
                                      limni_fixed *along, limni_fixed *across);
+
+/// The same for slot 0 of a neighbourhood, where the scheme reads more than its star: as sums of
+/// slots, from its first half-edge on.
+///
+/// along, across  out: [slots]
+limn_bake_status limni_vertex_tangents(limni_context *context, const limni_rules *rules,
+                                       const limni_neighbourhood *neighbourhood, limni_fixed *along,
+                                       limni_fixed *across);
 
 #endif

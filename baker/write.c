@@ -240,6 +240,7 @@ static void describe(const limni_rules *rules, const limni_patches *meshes, uint
                      char *text, size_t size) {
     static const char *const scheme_names[] = {[LIMN_SCHEME_LOOP] = "loop",
                                                [LIMN_SCHEME_CATMARK] = "catmark",
+                                               [LIMN_SCHEME_BUTTERFLY] = "butterfly",
                                                [LIMN_SCHEME_NONE] = "none"};
     const char *const creasing = creasing_name(meshes, mesh_count);
     const char *const normals = rules->normals == LIMN_NORMALS_EXACT ? "exact" : "none";
@@ -250,8 +251,13 @@ static void describe(const limni_rules *rules, const limni_patches *meshes, uint
         snprintf(creases, sizeof creases, " creases=opensubdiv creasing=%s", creasing);
     char isolate[96];
     describe_isolation(rules, meshes, mesh_count, isolate, sizeof isolate);
-    snprintf(text, size, "scheme=%s weights=%s boundary=%s%s normals=%s%s",
-             scheme_names[rules->scheme], rules->weights == LIMN_WEIGHTS_WARREN ? "warren" : "loop",
+    char tension[32] = "";
+    if (rules->scheme == LIMN_SCHEME_BUTTERFLY)
+        snprintf(tension, sizeof tension, " tension=%.9g",
+                 (double)rules->tension / (double)LIMNI_FIXED_ONE);
+    snprintf(text, size, "scheme=%s%s weights=%s boundary=%s%s normals=%s%s",
+             scheme_names[rules->scheme], tension,
+             rules->weights == LIMN_WEIGHTS_WARREN ? "warren" : "loop",
              boundary_name(meshes, mesh_count), creases, normals, isolate);
 }
 

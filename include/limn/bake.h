@@ -30,8 +30,10 @@ typedef enum limn_bake_status {
 
 /// What the surface is that a mesh stands for.
 typedef enum limn_scheme {
-    LIMN_SCHEME_LOOP,    ///< Loop subdivision, of triangles: other polygons are cut
-    LIMN_SCHEME_CATMARK, ///< Catmull-Clark subdivision, of any polygons
+    LIMN_SCHEME_LOOP,      ///< Loop subdivision, of triangles: other polygons are cut
+    LIMN_SCHEME_CATMARK,   ///< Catmull-Clark subdivision, of any polygons
+    LIMN_SCHEME_BUTTERFLY, ///< the modified butterfly, of triangles: the surface goes through the
+                           ///< control points; without creases
     LIMN_SCHEME_NONE ///< the faces themselves, for props that go through the same pipeline: flat
                      ///< triangles, or where there are other polygons, bilinear
 } limn_scheme;
@@ -108,6 +110,7 @@ typedef void limn_bake_progress_fn(void *user, const char *step, uint32_t done, 
 typedef struct limn_bake_desc {
     limn_scheme scheme;
     limn_weights weights;
+    float tension; ///< of the butterfly's ten points, w: -1/4 to 1/4
     limn_boundary boundary;
     limn_creases creases;
     limn_creasing creasing;
