@@ -19,16 +19,29 @@ static const char help[] =
     "usage: limn-bench peers [OPTIONS] MESH...\n\n"
     "Computes the same points of every MESH (.obj, .off) with Limn, with OpenSubdiv's limit "
     "stencils and\n"
-    "its Bfr surfaces, with plain recursive Loop subdivision, and by skinning the refined mesh "
-    "itself.\n"
+    "its Bfr surfaces, with Embree's rtcInterpolateN() (Catmull-Clark only), with plain recursive\n"
+    "subdivision, and by skinning the refined mesh itself.\n"
     "Everything that does not depend on the frame is prepared beforehand. All must give the same "
     "points.\n\n"
+    "  --scheme S    loop: polygons are cut into triangles (default); catmark: Catmull-Clark, of "
+    "polygons\n"
+    "                as they are\n"
+    "  --isolate N   1: Limn with small tables, and limn_mesh_refine() in each frame (default 0)\n"
     "  --rounds N    rounds, of all peers in turn; medians are shown (default 15)\n"
     "  --level N     of subdivision, 0 to 4 (default 4)\n"
     "  --threads N   for the rows with threads; 1: no such rows (default: one per processor, 8 at "
     "most)\n"
     "  --json FILE   results and conditions as JSON\n"
-    "  --csv FILE    the same as CSV\n";
+    "  --csv FILE    the same as CSV\n\n"
+    "With catmark, a patch is a face; where any face is not a quad, one for each corner of each "
+    "face, and\n"
+    "figures per face are still those of the faces of MESH. Embree's points are of the limit "
+    "surface. It\n"
+    "refines near extraordinary vertices for itself and keeps what it derives from the control "
+    "points of a\n"
+    "face in a cache, which each frame empties by committing the geometry, as points have moved. "
+    "It\n"
+    "is left out where a boundary has a vertex of a single face, which it rounds otherwise.\n";
 
 /// Of the diagonal. Float stencils and Bfr stay well below.
 #define DIFFERENCE_MAX 1e-4
@@ -38,7 +51,8 @@ static const char help[] =
 
 typedef struct peers_options {
     const char *json_path, *csv_path;
-    uint32_t rounds, level, threads;
+    uint32_t rounds;
+    scene_desc scene;
 } peers_options;
 
 peer *peer_append(peer_list *list) {
@@ -51,7 +65,11 @@ static bool add_peers(peer_list *list, const peer_scene *scene) {
 #ifdef BENCH_WITH_OPENSUBDIV
     good = good && peers_add_stencils(list, scene) && peers_add_bfr(list, scene);
 #endif
-    return good && peers_add_loop(list, scene) && peers_add_dense(list, scene);
+#ifdef BENCH_WITH_EMBREE
+    good = good && peers_add_embree(list, scene);
+#endif
+    return good && peers_add_loop(list, scene) && peers_add_catmark(list, scene) &&
+           peers_add_dense(list, scene);
 }
 
 static void destroy_peers(peer_list *list) {
@@ -75,25 +93,38 @@ static double find_diagonal(const peer_scene *scene) {
     return sqrt(squares);
 }
 
+/// The position of a row of a patch.
+typedef struct vertex {
+    double at[3];
+} vertex;
+
+static vertex read_vertex(const peer *source, uint32_t patch, uint32_t row) {
+    const float *const position = source->position(source->state, patch, row);
+    const uint32_t stride = peer_axis_stride(source);
+    return (vertex){{position[0], position[stride], position[2 * (size_t)stride]}};
+}
+
+static vertex move_by_bone(vertex v, const float *bone) {
+    vertex moved;
+    for (int axis = 0; axis < 3; axis++)
+        moved.at[axis] = (double)bone[axis] * v.at[0] + (double)bone[4 + axis] * v.at[1] +
+                         (double)bone[8 + axis] * v.at[2] + (double)bone[12 + axis];
+    return moved;
+}
+
 /// The largest distance to the first peer's points, over the diagonal; what is skinned starts from
 /// bones that all move alike.
 static double find_difference(const peer_scene *scene, const peer *first, const peer *other) {
     double largest = 0;
-    const float *const bone = scene->bones[0];
-    for (uint32_t face = 0; face < scene->face_count; face++) {
+    for (uint32_t patch = 0; patch < scene->patch_count; patch++) {
         for (uint32_t row = 0; row < scene->row_count; row++) {
-            const float *const a = first->position(first->state, face, row);
-            const float *const b = other->position(other->state, face, row);
+            const vertex found = read_vertex(other, patch, row);
+            vertex expected = read_vertex(first, patch, row);
+            if (other->skinned) expected = move_by_bone(expected, scene->bones[0]);
             double squares = 0;
-            for (int axis = 0; axis < 3; axis++) {
-                double expected = (double)a[axis];
-                if (other->skinned)
-                    expected = (double)bone[axis] * (double)a[0] +
-                               (double)bone[4 + axis] * (double)a[1] +
-                               (double)bone[8 + axis] * (double)a[2] + (double)bone[12 + axis];
-                const double distance = (double)b[axis] - expected;
-                squares += distance * distance;
-            }
+            for (int axis = 0; axis < 3; axis++)
+                squares +=
+                    (found.at[axis] - expected.at[axis]) * (found.at[axis] - expected.at[axis]);
             // Not a number is a difference, too.
             if (!(squares <= largest)) largest = squares;
         }
@@ -170,10 +201,12 @@ static void summarize(const peer_scene *scene, const peer_list *list, uint32_t r
         const peer *const limn = find_limn(list, what);
         results[p].what = *what;
         memcpy(results[p].mesh, scene->name, sizeof scene->name);
+        results[p].scheme = scene_scheme_name(scene->scheme);
         results[p].level = scene->level;
-        results[p].points_per_face = what->points == PEER_PATCH_POINTS
-                                         ? scene->row_count
-                                         : (double)scene->unique_count / scene->face_count;
+        const double points = what->points == PEER_PATCH_POINTS
+                                  ? (double)scene->patch_count * scene->row_count
+                                  : scene->unique_count;
+        results[p].points_per_face = points / scene->face_count;
         results[p].bytes_per_face = (double)what->byte_count / scene->face_count;
         results[p].ratio_to_limn =
             limn ? find_ratio(times + p * rounds, times + (limn - list->peers) * rounds, rounds)
@@ -193,20 +226,26 @@ static bool compare(peer_scene *scene, const peer_list *list, uint32_t rounds,
     return true;
 }
 
+static void print_scene(const peer_scene *scene, bool isolated) {
+    printf("\n%s: %s, %u faces, %u patches, %u control points, level %u: %u vertices a patch%s\n",
+           scene->name, scene_scheme_name(scene->scheme), scene->face_count, scene->patch_count,
+           scene->control_count, scene->level, scene->row_count, isolated ? "; limn isolated" : "");
+    report_print_head();
+}
+
 /// Appends the results of one mesh, and prints them.
 static bool bench_mesh(const char *path, const peers_options *options, peer_result *results,
                        uint32_t *result_count) {
     peer_scene scene;
     peer_list list = {.count = 0};
-    const bool good = scene_create(&scene, path, options->level, options->threads) &&
-                      add_peers(&list, &scene) &&
+    const bool good = scene_create(&scene, path, &options->scene) && add_peers(&list, &scene) &&
                       compare(&scene, &list, options->rounds, results + *result_count);
     if (good) {
-        printf("\n%s: %u faces, %u control points, level %u: %u vertices a patch\n", scene.name,
-               scene.face_count, scene.control_count, scene.level, scene.row_count);
-        report_print_head();
-        for (uint32_t p = 0; p < list.count; p++)
+        print_scene(&scene, options->scene.isolated);
+        for (uint32_t p = 0; p < list.count; p++) {
+            results[*result_count + p].isolated = options->scene.isolated;
             report_print(&results[*result_count + p]);
+        }
         *result_count += list.count;
     }
     destroy_peers(&list);
@@ -222,15 +261,30 @@ static uint32_t count_processors(void) {
     return count < 1 ? 1 : count > 8 ? 8 : (uint32_t)count;
 }
 
+static bool parse_scheme(const char *text, peer_scheme *scheme) {
+    for (int s = PEER_LOOP; s <= PEER_CATMARK; s++) {
+        *scheme = (peer_scheme)s;
+        if (strcmp(text, scene_scheme_name(*scheme)) == 0) return true;
+    }
+    return false;
+}
+
 static bool parse_option(int option, void *parsed) {
     peers_options *const to = parsed;
+    uint32_t number;
     switch (option) {
+    case 's':
+        return parse_scheme(optarg, &to->scene.scheme);
+    case 'i':
+        if (!bench_parse_range(optarg, 0, 1, &number)) return false;
+        to->scene.isolated = number == 1;
+        return true;
     case 'r':
         return bench_parse_range(optarg, 1, 10000, &to->rounds);
     case 'l':
-        return bench_parse_range(optarg, 0, LIMN_LEVEL_MAX, &to->level);
+        return bench_parse_range(optarg, 0, LIMN_LEVEL_MAX, &to->scene.level);
     case 't':
-        return bench_parse_range(optarg, 1, 256, &to->threads);
+        return bench_parse_range(optarg, 1, 256, &to->scene.thread_count);
     case 'j':
         to->json_path = optarg;
         return true;
@@ -243,14 +297,17 @@ static bool parse_option(int option, void *parsed) {
 }
 
 int bench_peers(int argc, char **argv) {
-    static const struct option names[] = {{"rounds", required_argument, NULL, 'r'},
+    static const struct option names[] = {{"scheme", required_argument, NULL, 's'},
+                                          {"isolate", required_argument, NULL, 'i'},
+                                          {"rounds", required_argument, NULL, 'r'},
                                           {"level", required_argument, NULL, 'l'},
                                           {"threads", required_argument, NULL, 't'},
                                           {"json", required_argument, NULL, 'j'},
                                           {"csv", required_argument, NULL, 'c'},
                                           {"help", no_argument, NULL, 'h'},
                                           {0}};
-    peers_options options = {.rounds = 15, .level = LIMN_LEVEL_MAX, .threads = count_processors()};
+    peers_options options = {
+        .rounds = 15, .scene = {.level = LIMN_LEVEL_MAX, .thread_count = count_processors()}};
     const int status = bench_read_options(argc, argv, help, names, parse_option, &options);
     if (status >= 0) return status;
     if (optind == argc) {

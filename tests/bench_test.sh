@@ -37,4 +37,25 @@ expect "is named" grep -q -- --rounds error.txt
 expect skin "$bench" skin --quick --rounds 1 --csv skin.csv "$assets/imp.obj" >skin.txt
 expect "steps" [ "$(grep -c '^imp.obj,' skin.csv)" = 13 ]
 expect "every step is a time" [ "$(awk -F, '/^imp/ && $(NF - 1) <= 0' skin.csv)" = "" ]
+
+# An open cube, closed with triangles so that faces are divided, and two quads, whose corners Embree rounds otherwise
+printf 'v 0 0 0\nv 1 0 0\nv 1 1.3 0\nv 0 1 0\nv 0 0 1\nv 1 0 1.2\nv 1 1 1\nv 0 1 1\n' >quads.obj
+cp quads.obj corners.obj
+printf 'f 1 2 6 5\nf 2 3 7 6\n' >>corners.obj
+printf 'f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n' >>quads.obj
+cp quads.obj mixed.obj
+printf 'f 5 6 7\nf 5 7 8\n' >>mixed.obj
+for isolate in 0 1; do
+    expect "peers, isolate $isolate" "$bench" peers --scheme catmark --isolate $isolate --level 1 --rounds 1 \
+        --threads 1 --csv peers.csv quads.obj mixed.obj corners.obj >peers.txt 2>notes.txt
+    for mesh in quads mixed corners; do
+        expect "$mesh by both" sh -c "grep -q '^limn,.*,$mesh,1,' peers.csv && grep -q '^recursive catmark,.*,$mesh,1,' peers.csv"
+    done
+    expect "the scheme and the tables" [ "$(grep ',[01]$' peers.csv | grep -vc ",catmark,$isolate\$")" = 0 ]
+    expect "no Embree at corners" sh -c "! grep -q '^embree,.*,corners,' peers.csv"
+done
+expect "Loop's peers" "$bench" peers --level 1 --rounds 1 --threads 1 --csv peers.csv "$assets/torus32.obj" >peers.txt
+expect "are of that scheme" grep -q '^recursive loop,.*,loop,0$' peers.csv
+expect "an unknown scheme" sh -c "'$bench' peers --scheme butterfly quads.obj 2>error.txt; [ \$? = 2 ]"
+expect "is named" grep -q -- --scheme error.txt
 exit $failed

@@ -22,8 +22,9 @@ typedef enum peer_output {
 
 /// Which points are written.
 typedef enum peer_points {
-    PEER_PATCH_POINTS, ///< all vertices of every patch: what Limn writes, 153 a face at level 4
-    PEER_UNIQUE_POINTS ///< each vertex of the refined mesh once: about 128 a face at level 4
+    PEER_PATCH_POINTS, ///< all vertices of every patch: what Limn writes, at level 4 153 a triangle,
+                       ///< 289 a quad
+    PEER_UNIQUE_POINTS ///< each vertex of the refined mesh once: about 128 a triangle, 256 a quad
 } peer_points;
 
 typedef struct peer {
@@ -40,10 +41,15 @@ typedef struct peer {
     uint64_t byte_count; ///< of what is stored, per mesh and not per instance or frame
     void *state;
     void (*run)(void *state); ///< computes one frame
-    /// The position, of 3 floats, of a row of a face in the last frame.
-    const float *(*position)(const void *state, uint32_t face, uint32_t row);
+    /// The position of a row of a patch in the last frame: three floats, `axis_stride` apart.
+    const float *(*position)(const void *state, uint32_t patch, uint32_t row);
+    uint32_t axis_stride; ///< 0 means 1
     void (*destroy)(void *state);
 } peer;
+
+static inline uint32_t peer_axis_stride(const peer *which) {
+    return which->axis_stride ? which->axis_stride : 1;
+}
 
 #define PEER_MAX 64
 
@@ -64,13 +70,16 @@ typedef struct peer_list {
 /// Appends a peer and returns it, to be filled in. The list has room for all that there are.
 peer *peer_append(peer_list *list);
 
-/// Each prepares its peers for the scene and appends them; the scene outlives them. False after a
-/// message.
+/// Each prepares its peers for the scene and appends them, or none if they do not have its scheme;
+/// the scene outlives them. False after a message.
 bool peers_add_limn(peer_list *list, const peer_scene *scene);
-bool peers_add_loop(peer_list *list, const peer_scene *scene);
-bool peers_add_dense(peer_list *list, const peer_scene *scene);
 bool peers_add_stencils(peer_list *list, const peer_scene *scene);
 bool peers_add_bfr(peer_list *list, const peer_scene *scene);
+bool peers_add_embree(peer_list *list, const peer_scene *scene);
+bool peers_add_loop(peer_list *list, const peer_scene *scene);
+bool peers_add_catmark(peer_list *list, const peer_scene *scene);
+/// Last: it takes the bind pose from the first of the list.
+bool peers_add_dense(peer_list *list, const peer_scene *scene);
 
 #ifdef __cplusplus
 }

@@ -3,10 +3,12 @@
  * OpenSubdiv's Bfr: one surface for each base face, created beforehand. A frame gathers the control
  * points of each surface, computes its patch points, and evaluates point after point.
  */
+#include "opensubdiv_scene.h"
 #include "peer.h"
 
 #include "../bench.h"
 
+#include "opensubdiv_patches.h"
 #include "opensubdiv_refiner.h"
 
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
@@ -34,7 +36,8 @@ struct surfaces {
     refiner_pointer refiner;
     std::unique_ptr<Bfr::RefinerSurfaceFactory<>> factory; ///< owns what surfaces share
     std::vector<surface> faces;
-    std::vector<float> parameters; ///< two for each row
+    std::vector<patch> patches;    ///< in the order of their faces
+    std::vector<float> parameters; ///< two for each row of a patch; the same for all that are faces
     size_t point_count_max = 0;
     double build_ms = 0;
 };
@@ -50,17 +53,20 @@ struct state {
 template <int floats> void evaluate(state &self) {
     const peer_scene &where = *self.where;
     const surface::PointDescriptor layout(3);
-    const float *const parameters = self.source->parameters.data();
+    const surfaces &source = *self.source;
+    const float *parameters = source.parameters.data();
     float *const points = self.patch_points.data();
     float *out = self.out.data();
-    for (const surface &face : self.source->faces) {
-        face.PreparePatchPoints(where.controls[0], layout, points, layout);
+    for (const patch &part : source.patches) {
+        const surface &face = source.faces[size_t(part.face)];
+        if (part.corner == 0) face.PreparePatchPoints(where.controls[0], layout, points, layout);
         for (uint32_t row = 0; row < where.row_count; row++, out += floats) {
             if constexpr (floats == 3)
                 face.Evaluate(parameters + 2 * row, points, layout, out);
             else
                 face.Evaluate(parameters + 2 * row, points, layout, out, out + 3, out + 6);
         }
+        if (part.divided) parameters += 2 * where.row_count;
     }
 }
 
@@ -72,9 +78,9 @@ void run(void *self_state) {
         evaluate<3>(self);
 }
 
-const float *position(const void *self_state, uint32_t face, uint32_t row) {
+const float *position(const void *self_state, uint32_t patch, uint32_t row) {
     const state &self = *static_cast<const state *>(self_state);
-    const size_t point = size_t(face) * self.where->row_count + row;
+    const size_t point = size_t(patch) * self.where->row_count + row;
     return self.out.data() + point * (self.derivatives ? 9 : 3);
 }
 
@@ -83,15 +89,10 @@ void destroy(void *self_state) {
 }
 
 void create_surfaces(const peer_scene &where, surfaces &built) {
-    limni_opensubdiv_mesh mesh = {};
-    mesh.positions = where.controls[0];
-    mesh.faces = where.faces[0];
-    mesh.position_count = where.control_count;
-    mesh.face_count = where.face_count;
-    mesh.level = where.level;
-    built.refiner = create_refiner(mesh);
+    built.refiner = create_refiner(describe_scene(where));
     Bfr::SurfaceFactory::Options options;
-    options.SetApproxLevelSmooth(APPROXIMATION_LEVEL).SetApproxLevelSharp(APPROXIMATION_LEVEL);
+    const int level = APPROXIMATION_LEVEL + where.divided;
+    options.SetApproxLevelSmooth(level).SetApproxLevelSharp(level);
     built.factory = std::make_unique<Bfr::RefinerSurfaceFactory<>>(*built.refiner, options);
     built.faces.resize(where.face_count);
     for (uint32_t face = 0; face < where.face_count; face++) {
@@ -106,9 +107,14 @@ std::shared_ptr<const surfaces> build(const peer_scene &where) {
     auto built = std::make_shared<surfaces>();
     create_surfaces(where, *built);
     built->build_ms = 1e3 * (bench_seconds() - start);
-    for (uint32_t row = 0; row < where.row_count; row++) {
-        built->parameters.push_back(float(where.domain->rows[row].i) / LIMN_GRID_SIZE);
-        built->parameters.push_back(float(where.domain->rows[row].j) / LIMN_GRID_SIZE);
+    const limni_opensubdiv_mesh mesh = describe_scene(where);
+    built->patches = list_patches(mesh);
+    for (const patch &part : built->patches) {
+        if (!part.divided && !built->parameters.empty()) continue;
+        for (const grid_point row : list_rows(mesh)) {
+            const coordinates at = face_coordinates(part, row);
+            built->parameters.insert(built->parameters.end(), {float(at[0]), float(at[1])});
+        }
     }
     return built;
 }
@@ -131,7 +137,7 @@ void append(peer_list &list, const peer_scene &where, const std::shared_ptr<cons
     self->source = source;
     self->derivatives = derivatives;
     self->patch_points.resize(3 * source->point_count_max);
-    self->out.resize(size_t(where.face_count) * where.row_count * (derivatives ? 9 : 3));
+    self->out.resize(size_t(where.patch_count) * where.row_count * (derivatives ? 9 : 3));
     peer &added = *peer_append(&list);
     added.name = "opensubdiv bfr";
     added.output = derivatives ? PEER_POSITION_DERIVATIVES : PEER_POSITION;

@@ -25,9 +25,9 @@ static void run(void *self_state) {
     self->apply(&self->skin, (const scene_bone *)self->scene->bones, self->vertices);
 }
 
-static const float *position(const void *self_state, uint32_t face, uint32_t row) {
+static const float *position(const void *self_state, uint32_t patch, uint32_t row) {
     const state *const self = self_state;
-    const size_t vertex = self->scene->unique[(size_t)face * self->scene->row_count + row];
+    const size_t vertex = self->scene->unique[(size_t)patch * self->scene->row_count + row];
     return self->vertices + vertex * self->floats;
 }
 
@@ -39,37 +39,29 @@ static void destroy(void *self_state) {
     free(self);
 }
 
-/// The vertices in the bind pose, from Limn.
-static void evaluate_unique(const peer_scene *scene, float (*positions)[3]) {
-    limn_pack pack;
-    if (limn_pack_open(&pack, scene->baked.blob, scene->baked.blob_size) != LIMN_OK) exit(1);
-    const limn_mesh mesh = limn_pack_mesh(&pack, 0);
-    const limn_plan plan = limn_plan_uniform(&mesh, scene->level);
-    float(*const all)[3] = bench_allocate((size_t)plan.vertex_count, sizeof *all);
-    limn_evaluate(&plan, scene->controls[0], 0, plan.patch_count, &(limn_output){.vertices = all});
-    for (uint32_t p = 0; p < plan.patch_count; p++) {
-        const limn_patch_face face = limn_mesh_face(&mesh, p);
-        const float(*const rows)[3] = (const float(*)[3])all + limn_plan_first_vertex(&plan, p);
-        for (uint32_t r = 0; r < scene->row_count; r++) {
-            const uint32_t row = scene_face_row(scene, r, face.rotation);
-            const uint32_t vertex = scene->unique[(size_t)face.face * scene->row_count + row];
-            memcpy(positions[vertex], rows[r], sizeof *rows);
-        }
+/// The vertices in the bind pose, from a peer.
+static void evaluate_unique(const peer_scene *scene, const peer *source, float (*positions)[3]) {
+    source->run(source->state);
+    for (uint32_t vertex = 0; vertex < scene->unique_count; vertex++) {
+        const uint32_t at = scene->unique_rows[vertex];
+        const float *const position =
+            source->position(source->state, at / scene->row_count, at % scene->row_count);
+        for (uint32_t axis = 0; axis < 3; axis++)
+            positions[vertex][axis] = position[axis * peer_axis_stride(source)];
     }
-    free(all);
 }
 
-/// The triangles of all faces, which is also what a file of this mesh would hold.
+/// The triangles of all patches, which is also what a file of this mesh would hold.
 static uint32_t *make_indices(const peer_scene *scene, uint64_t *byte_count) {
     const uint32_t count = scene->domain->index_counts[scene->level];
     const uint16_t *const rows = scene->domain->indices[scene->level];
-    uint32_t *const indices = bench_allocate((size_t)scene->face_count * count, sizeof *indices);
-    for (uint32_t face = 0; face < scene->face_count; face++) {
+    uint32_t *const indices = bench_allocate((size_t)scene->patch_count * count, sizeof *indices);
+    for (uint32_t patch = 0; patch < scene->patch_count; patch++) {
         for (uint32_t i = 0; i < count; i++)
-            indices[(size_t)face * count + i] =
-                scene->unique[(size_t)face * scene->row_count + rows[i]];
+            indices[(size_t)patch * count + i] =
+                scene->unique[(size_t)patch * scene->row_count + rows[i]];
     }
-    *byte_count += (uint64_t)scene->face_count * count * sizeof *indices;
+    *byte_count += (uint64_t)scene->patch_count * count * sizeof *indices;
     return indices;
 }
 
@@ -108,7 +100,7 @@ static void append(peer_list *list, const peer_scene *scene, uint32_t isa, bool 
     float(*const normals)[3] = bench_allocate(count, sizeof *normals);
     uint64_t index_bytes = 0;
     self->scene = scene;
-    evaluate_unique(scene, positions);
+    evaluate_unique(scene, &list->peers[0], positions);
     self->indices = make_indices(scene, &index_bytes);
     make_normals((const float(*)[3])positions, count, self->indices,
                  (size_t)index_bytes / sizeof *self->indices, normals);

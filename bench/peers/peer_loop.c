@@ -9,25 +9,11 @@
 
 #include "../bench.h"
 #include "allocate.h"
-#include "topology.h"
+#include "vector.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#if defined(__GNUC__)
-typedef float vector __attribute__((vector_size(16)));
-#else
-#error "this peer needs vector extensions"
-#endif
-
-#if defined(__SSE2__)
-static const char isa[] = "sse2";
-#elif defined(__ARM_NEON)
-static const char isa[] = "neon";
-#else
-static const char isa[] = "scalar";
-#endif
 
 enum { REGULAR_VALENCE = 6 };
 
@@ -102,36 +88,6 @@ static void run(void *self_state) {
 // -------------------------------------------------------------------------------------------------
 // Preparation
 
-/// Edges by vertex.
-typedef struct vertex_rings {
-    uint32_t *ends;       ///< [vertex_count] into neighbours and boundary
-    uint32_t *neighbours; ///< [2 * edge_count]
-    bool *boundary;       ///< [2 * edge_count] whether the edge to the neighbour is on a boundary
-} vertex_rings;
-
-static vertex_rings find_rings(const topology *mesh) {
-    vertex_rings found = {
-        .ends = bench_allocate((size_t)mesh->vertex_count + 1, sizeof *found.ends),
-        .neighbours = bench_allocate(2 * (size_t)mesh->edge_count, sizeof *found.neighbours),
-        .boundary = bench_allocate(2 * (size_t)mesh->edge_count, sizeof *found.boundary),
-    };
-    for (uint32_t e = 0; e < mesh->edge_count; e++) {
-        for (int end = 0; end < 2; end++)
-            found.ends[mesh->edge_vertices[e][end] + 1]++;
-    }
-    for (uint32_t v = 0; v < mesh->vertex_count; v++)
-        found.ends[v + 1] += found.ends[v];
-    // Filling moves each start up to its end.
-    for (uint32_t e = 0; e < mesh->edge_count; e++) {
-        for (int end = 0; end < 2; end++) {
-            const uint32_t at = found.ends[mesh->edge_vertices[e][end]]++;
-            found.neighbours[at] = mesh->edge_vertices[e][1 - end];
-            found.boundary[at] = mesh->edge_opposites[e][1] == TOPOLOGY_NONE;
-        }
-    }
-    return found;
-}
-
 /// Loop's weight of all neighbours together.
 static double side_weight(uint32_t valence) {
     const double ring = 3.0 + 2.0 * cos(2.0 * acos(-1.0) / valence);
@@ -163,11 +119,10 @@ static void add_regular(vertex_masks *masks, uint32_t vertex, const uint32_t *ri
     masks->regular[masks->regular_count++] = vertex;
 }
 
-static void add_other(vertex_masks *masks, const vertex_rings *rings, uint32_t vertex, bool limit) {
-    const uint32_t begin = vertex ? rings->ends[vertex - 1] : 0, end = rings->ends[vertex];
-    bool boundary = false;
-    for (uint32_t at = begin; at < end; at++)
-        boundary |= rings->boundary[at];
+static void add_other(vertex_masks *masks, const topology_rings *rings, uint32_t vertex,
+                      bool limit) {
+    const uint32_t begin = rings->starts[vertex], end = rings->starts[vertex + 1];
+    const bool boundary = topology_is_boundary(rings, vertex);
     for (uint32_t at = begin; at < end; at++) {
         if (!boundary || rings->boundary[at])
             masks->other_rings[masks->other_side_count++] = rings->neighbours[at];
@@ -178,16 +133,13 @@ static void add_other(vertex_masks *masks, const vertex_rings *rings, uint32_t v
     masks->other_ends[other] = masks->other_side_count;
 }
 
-static bool is_regular(const vertex_rings *rings, uint32_t vertex) {
-    const uint32_t begin = vertex ? rings->ends[vertex - 1] : 0, end = rings->ends[vertex];
-    bool boundary = false;
-    for (uint32_t at = begin; at < end; at++)
-        boundary |= rings->boundary[at];
-    return end - begin == REGULAR_VALENCE && !boundary;
+static bool is_regular(const topology_rings *rings, uint32_t vertex) {
+    return rings->starts[vertex + 1] - rings->starts[vertex] == REGULAR_VALENCE &&
+           !topology_is_boundary(rings, vertex);
 }
 
 static vertex_masks find_vertex_masks(const topology *mesh, bool limit) {
-    vertex_rings rings = find_rings(mesh);
+    topology_rings rings = topology_find_rings(mesh);
     const uint32_t count = mesh->vertex_count;
     vertex_masks masks = {
         .regular_centre = limit ? 0.5f : 0.625f,
@@ -201,14 +153,20 @@ static vertex_masks find_vertex_masks(const topology *mesh, bool limit) {
     };
     for (uint32_t v = 0; v < count; v++) {
         if (is_regular(&rings, v))
-            add_regular(&masks, v, rings.neighbours + (v ? rings.ends[v - 1] : 0));
+            add_regular(&masks, v, rings.neighbours + rings.starts[v]);
         else
             add_other(&masks, &rings, v, limit);
     }
-    free(rings.ends);
-    free(rings.neighbours);
-    free(rings.boundary);
+    topology_rings_destroy(&rings);
     return masks;
+}
+
+/// The vertex of a triangle that is not an end of its edge.
+static uint32_t find_opposite(const topology *mesh, uint32_t face, const uint32_t ends[2]) {
+    const uint32_t *corner = mesh->face_vertices + mesh->face_starts[face];
+    while (*corner == ends[0] || *corner == ends[1])
+        corner++;
+    return *corner;
 }
 
 /// On a boundary the opposites are the ends, which makes the same mask that of the middle.
@@ -220,10 +178,12 @@ static level_step make_step(const topology *mesh) {
         .vertex_count = mesh->vertex_count,
     };
     for (uint32_t e = 0; e < mesh->edge_count; e++) {
-        const bool boundary = mesh->edge_opposites[e][1] == TOPOLOGY_NONE;
-        memcpy(made.edges[e], mesh->edge_vertices[e], sizeof *mesh->edge_vertices);
-        memcpy(made.edges[e] + 2, boundary ? mesh->edge_vertices[e] : mesh->edge_opposites[e],
-               sizeof *mesh->edge_vertices);
+        const uint32_t *const ends = mesh->edge_vertices[e], *const faces = mesh->edge_faces[e];
+        const bool boundary = faces[1] == TOPOLOGY_NONE;
+        for (int k = 0; k < 2; k++) {
+            made.edges[e][k] = ends[k];
+            made.edges[e][2 + k] = boundary ? ends[k] : find_opposite(mesh, faces[k], ends);
+        }
     }
     return made;
 }
@@ -246,12 +206,11 @@ static uint64_t count_bytes(const state *self) {
 
 static void build(state *self) {
     const peer_scene *const scene = self->scene;
-    topology mesh = topology_create((const uint32_t(*)[3])scene->faces, scene->face_count,
-                                    scene->control_count);
+    topology mesh = scene_topology(scene);
     for (uint32_t level = 0; level < scene->level; level++) {
         self->steps[level] = make_step(&mesh);
         self->points[level] = bench_allocate(mesh.vertex_count, sizeof(vector));
-        topology fine = topology_refine(&mesh);
+        topology fine = topology_refine_triangles(&mesh);
         topology_destroy(&mesh);
         mesh = fine;
     }
@@ -263,9 +222,9 @@ static void build(state *self) {
         memcpy(&self->points[0][v], scene->controls[v], sizeof *scene->controls);
 }
 
-static const float *position(const void *self_state, uint32_t face, uint32_t row) {
+static const float *position(const void *self_state, uint32_t patch, uint32_t row) {
     const state *const self = self_state;
-    const uint32_t vertex = self->scene->refined[(size_t)face * self->scene->row_count + row];
+    const uint32_t vertex = self->scene->refined[(size_t)patch * self->scene->row_count + row];
     return (const float *)&self->limit_points[vertex];
 }
 
@@ -292,6 +251,7 @@ static void destroy(void *self_state) {
 }
 
 bool peers_add_loop(peer_list *list, const peer_scene *scene) {
+    if (scene->scheme != PEER_LOOP) return true;
     state *const self = bench_allocate(1, sizeof *self);
     self->scene = scene;
     const double start = bench_seconds();
@@ -299,7 +259,7 @@ bool peers_add_loop(peer_list *list, const peer_scene *scene) {
     *peer_append(list) = (peer){
         .name = "recursive loop",
         .points = PEER_UNIQUE_POINTS,
-        .isa = isa,
+        .isa = VECTOR_ISA,
         .family = "",
         .threads = 1,
         .build_ms = 1e3 * (bench_seconds() - start),

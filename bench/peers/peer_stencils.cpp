@@ -10,10 +10,12 @@
  * own.
  */
 #include "allocate.h"
+#include "opensubdiv_scene.h"
 #include "peer.h"
 
 #include "../bench.h"
 
+#include "opensubdiv_patches.h"
 #include "opensubdiv_refiner.h"
 
 #include <opensubdiv/far/stencilTableFactory.h>
@@ -39,8 +41,8 @@ using stencil_table = Far::LimitStencilTableReal<float>;
 /// From level 4 on, stencils equal the limit; see limni_opensubdiv_stencil_bytes().
 constexpr int REFINEMENT_LEVEL = 6;
 
-/// The largest count of a table's weights that int can hold, by the largest stencils seen.
-constexpr uint32_t FACE_COUNT_MAX = 500000;
+/// The largest count of stencils that give no more weights than int can hold, by the largest seen.
+constexpr uint64_t STENCIL_COUNT_MAX = 76000000;
 
 /// Whose indices stay in the first caches from pass to pass. 64 to 512 are alike; with 4096 and
 /// more the three passes lose to OpenSubdiv's own function.
@@ -126,9 +128,9 @@ void run_in_parts(void *self_state) {
     team_run(static_cast<state *>(self_state)->where->threads, run_part, self_state);
 }
 
-const float *position(const void *self_state, uint32_t face, uint32_t row) {
+const float *position(const void *self_state, uint32_t patch, uint32_t row) {
     const state &self = *static_cast<const state *>(self_state);
-    size_t point = size_t(face) * self.where->row_count + row;
+    size_t point = size_t(patch) * self.where->row_count + row;
     if (self.points == PEER_UNIQUE_POINTS) point = self.where->unique[point];
     return self.out[0].data() + point * size_t(self.size);
 }
@@ -140,24 +142,27 @@ void destroy(void *self_state) {
 // -------------------------------------------------------------------------------------------------
 // Preparation
 
-/// In OpenSubdiv's form: for each face a run of parameters (s, t), which are our (i, j) over the
-/// grid size. A triangle's ptex index is its face index.
+/// In OpenSubdiv's form: for each patch a run of parameters (s, t) of its ptex face.
 struct locations {
     std::vector<float> s, t;
     stencil_factory::LocationArrayVec arrays;
 };
 
 locations locate(const peer_scene &where, peer_points points) {
+    const limni_opensubdiv_mesh mesh = describe_scene(where);
+    const std::vector<grid_point> rows = list_rows(mesh);
     locations found;
-    for (uint32_t face = 0; face < where.face_count; face++) {
+    uint32_t row = 0;
+    for (const patch &part : list_patches(mesh)) {
         stencil_factory::LocationArray array;
-        array.ptexIdx = int(face);
-        for (uint32_t r = 0; r < where.row_count; r++) {
-            const uint32_t row = face * where.row_count + r;
-            if (points == PEER_UNIQUE_POINTS && where.unique_rows[where.unique[row]] != row)
+        array.ptexIdx = part.ptex_face;
+        for (const grid_point place : rows) {
+            const uint32_t mine = row++;
+            if (points == PEER_UNIQUE_POINTS && where.unique_rows[where.unique[mine]] != mine)
                 continue;
-            found.s.push_back(float(where.domain->rows[r].i) / LIMN_GRID_SIZE);
-            found.t.push_back(float(where.domain->rows[r].j) / LIMN_GRID_SIZE);
+            const coordinates at = ptex_coordinates(part, place);
+            found.s.push_back(float(at[0]));
+            found.t.push_back(float(at[1]));
             array.numLocations++;
         }
         if (array.numLocations > 0) found.arrays.push_back(array);
@@ -175,14 +180,9 @@ locations locate(const peer_scene &where, peer_points points) {
 std::unique_ptr<const stencil_table> build(const peer_scene &where, peer_points points,
                                            bool derivatives, double &build_ms) {
     const double start = bench_seconds();
-    require(where.face_count <= FACE_COUNT_MAX, "too many faces for OpenSubdiv's stencils");
-    limni_opensubdiv_mesh mesh = {};
-    mesh.positions = where.controls[0];
-    mesh.faces = where.faces[0];
-    mesh.position_count = where.control_count;
-    mesh.face_count = where.face_count;
-    mesh.level = where.level;
-    const refiner_pointer refiner = create_refiner(mesh);
+    require(uint64_t(where.patch_count) * where.row_count <= STENCIL_COUNT_MAX,
+            "too many faces for OpenSubdiv's stencils");
+    const refiner_pointer refiner = create_refiner(describe_scene(where));
     const locations found = locate(where, points);
     refiner->RefineAdaptive(Far::TopologyRefiner::AdaptiveOptions(REFINEMENT_LEVEL));
     stencil_factory::Options options;

@@ -24,7 +24,7 @@ static const char *points_name(peer_points points) {
 // The table
 
 void report_print_head(void) {
-    printf("%-16s %-20s %-6s %-12s %3s %12s %10s %7s %9s %9s %9s %8s\n", "peer", "output", "isa",
+    printf("%-18s %-20s %-6s %-12s %3s %12s %10s %7s %9s %9s %9s %8s\n", "peer", "output", "isa",
            "family", "thr", "points/face", "ns/face", "ratio", "B/face", "build ms", "load ms",
            "differ");
 }
@@ -39,7 +39,7 @@ static void print_number(const char *format, int width, double value) {
 
 void report_print(const peer_result *result) {
     const peer *const what = &result->what;
-    printf("%-16s %-20s %-6s %-12s %3u %5.1f %-6s %10.1f", what->name, output_name(what->output),
+    printf("%-18s %-20s %-6s %-12s %3u %5.1f %-6s %10.1f", what->name, output_name(what->output),
            what->isa, what->family, what->threads, result->points_per_face,
            points_name(what->points), result->ns_per_face);
     print_number(" %*.2f", 7, result->ratio_to_limn);
@@ -60,7 +60,7 @@ void report_print_notes(void) {
         "an input; of Bfr at least\n"
         "that. load ms: from stored bytes in memory to ready; -: has no stored form and is built "
         "instead, or needs none.\n"
-        "differ: largest distance to limn's points over the diagonal. %s.\n",
+        "differ: largest distance to the first peer's points over the diagonal. %s.\n",
         SCENE_BONE_COUNT, opensubdiv_note);
 }
 
@@ -73,10 +73,11 @@ static json_t *make_number(double value) {
 
 static json_t *make_result(const peer_result *result) {
     const peer *const what = &result->what;
-    return json_pack("{ss ss ss ss ss si si ss sf sf so sf sf so sf}", "peer", what->name, "output",
-                     output_name(what->output), "isa", what->isa, "family", what->family, "mesh",
-                     result->mesh, "level", (int)result->level, "threads", (int)what->threads,
-                     "points", points_name(what->points), "points_per_face",
+    return json_pack("{ss ss ss ss ss ss sb si si ss sf sf so sf sf so sf}", "peer", what->name,
+                     "output", output_name(what->output), "isa", what->isa, "family", what->family,
+                     "mesh", result->mesh, "scheme", result->scheme, "isolated",
+                     (int)result->isolated, "level", (int)result->level, "threads",
+                     (int)what->threads, "points", points_name(what->points), "points_per_face",
                      result->points_per_face, "ns_per_face", result->ns_per_face, "ratio_to_limn",
                      make_number(result->ratio_to_limn), "bytes_per_face", result->bytes_per_face,
                      "build_ms", what->build_ms, "load_ms", make_number(what->load_ms),
@@ -118,7 +119,7 @@ static void write_line(FILE *file, const peer_result *result) {
                               result->difference};
     for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++)
         write_number(file, numbers[n]);
-    fputc('\n', file);
+    fprintf(file, ",%s,%d\n", result->scheme, result->isolated);
 }
 
 void report_write_csv(FILE *file, const peer_result *results, uint32_t count, uint32_t rounds) {
@@ -126,8 +127,9 @@ void report_write_csv(FILE *file, const peer_result *results, uint32_t count, ui
     bench_cpu_name(cpu, sizeof cpu);
     fprintf(file, "# commit %s, %s, flags %s, CPU %s, %u rounds; %s\n", BENCH_COMMIT,
             BENCH_COMPILER, BENCH_FLAGS, cpu, rounds, opensubdiv_note);
-    fprintf(file, "peer,output,isa,family,mesh,level,threads,points,points_per_face,ns_per_face,"
-                  "ratio_to_limn,bytes_per_face,build_ms,load_ms,largest_difference\n");
+    fprintf(file,
+            "peer,output,isa,family,mesh,level,threads,points,points_per_face,ns_per_face,"
+            "ratio_to_limn,bytes_per_face,build_ms,load_ms,largest_difference,scheme,isolated\n");
     for (uint32_t r = 0; r < count; r++)
         write_line(file, &results[r]);
 }

@@ -10,12 +10,14 @@
 typedef struct peer_result {
     peer what; ///< its state is gone
     char mesh[64];
+    const char *scheme;
+    bool isolated; ///< Limn
     uint32_t level;
     double points_per_face;
     double ns_per_face;    ///< median over the rounds
     double ratio_to_limn;  ///< median over the rounds of the ratio in one round; NAN: no such Limn
     double bytes_per_face; ///< stored
-    double difference;     ///< the largest to Limn's points, as a part of the mesh's diagonal
+    double difference; ///< the largest to the first peer's points, as a part of the mesh's diagonal
 } peer_result;
 
 void report_print_head(void);

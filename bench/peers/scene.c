@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "scene.h"
 
+#include "../../baker/source.h"
 #include "../bench.h"
 #include "allocate.h"
-#include "topology.h"
 
 #include "limn/bake.h"
 
@@ -17,8 +17,11 @@ static bool check_bake(limn_bake_status status, const limn_baker *baker) {
     return status == LIMN_BAKE_OK;
 }
 
+// -------------------------------------------------------------------------------------------------
+// Reading and baking
+
 /// The mesh as the baker has read and mended it, in the order of the file. Holes are in no file.
-static bool copy_mesh(peer_scene *scene, const void *blob, size_t blob_size) {
+static bool copy_triangles(peer_scene *scene, const void *blob, size_t blob_size) {
     limn_pack pack;
     if (limn_pack_open(&pack, blob, blob_size) != LIMN_OK) return false;
     const limn_mesh mesh = limn_pack_mesh(&pack, 0);
@@ -31,18 +34,20 @@ static bool copy_mesh(peer_scene *scene, const void *blob, size_t blob_size) {
     scene->face_count = mesh.patch_count;
     scene->controls = bench_allocate(mesh.control_count, sizeof *scene->controls);
     memcpy(scene->controls, mesh.controls, mesh.control_count * sizeof *scene->controls);
-    scene->faces = bench_allocate(mesh.patch_count, sizeof *scene->faces);
+    scene->face_sizes = bench_allocate(mesh.patch_count, sizeof *scene->face_sizes);
+    scene->face_corners = bench_allocate(mesh.patch_count, 3 * sizeof *scene->face_corners);
     for (uint32_t p = 0; p < mesh.patch_count; p++) {
         const limn_patch_face face = limn_mesh_face(&mesh, p);
         uint32_t corners[LIMN_CORNER_MAX];
         limn_mesh_corners(&mesh, p, corners);
+        scene->face_sizes[p] = 3;
         for (uint32_t c = 0; c < 3; c++)
-            scene->faces[face.face][(c + face.rotation) % 3] = corners[c];
+            scene->face_corners[3 * face.face + (c + face.rotation) % 3] = corners[c];
     }
     return true;
 }
 
-static bool read_mesh(peer_scene *scene, const char *path) {
+static bool read_triangles(peer_scene *scene, const char *path) {
     limn_baker *const baker = limn_baker_create(
         &(limn_bake_desc){.repair = LIMN_REPAIR_ALL, .non_manifold = LIMN_NON_MANIFOLD_SPLIT});
     if (!baker) return false;
@@ -50,22 +55,67 @@ static bool read_mesh(peer_scene *scene, const char *path) {
     size_t blob_size;
     const bool good = check_bake(limn_baker_add_file(baker, path), baker) &&
                       check_bake(limn_baker_finish(baker, &blob, &blob_size), baker) &&
-                      copy_mesh(scene, blob, blob_size);
+                      copy_triangles(scene, blob, blob_size);
     limn_baker_destroy(baker);
     return good;
 }
 
+static void copy_polygons(peer_scene *scene, const limni_source *source) {
+    const uint32_t corner_count = source->face_offsets[source->face_count];
+    snprintf(scene->name, sizeof scene->name, "%s", source->name);
+    scene->control_count = source->position_count;
+    scene->face_count = source->face_count;
+    scene->controls = bench_allocate(source->position_count, sizeof *scene->controls);
+    memcpy(scene->controls, source->positions, source->position_count * sizeof *scene->controls);
+    scene->face_sizes = bench_allocate(source->face_count, sizeof *scene->face_sizes);
+    for (uint32_t f = 0; f < source->face_count; f++) {
+        scene->face_sizes[f] = source->face_offsets[f + 1] - source->face_offsets[f];
+        scene->divided |= scene->face_sizes[f] != 4;
+    }
+    scene->face_corners = bench_allocate(corner_count, sizeof *scene->face_corners);
+    memcpy(scene->face_corners, source->face_corners, corner_count * sizeof *scene->face_corners);
+}
+
+/// As it is in the file: nothing is mended.
+static bool read_polygons(peer_scene *scene, const char *path) {
+    limni_context context = {0};
+    limni_source source = {0};
+    bool good = limni_read_file(&context, path, &source) == LIMN_BAKE_OK;
+    if (!good) fprintf(stderr, "limn-bench: %s\n", context.error);
+    if (good && source.tags.hole_count > 0) {
+        fprintf(stderr, "limn-bench: %s has holes, which peers do not\n", path);
+        good = false;
+    }
+    if (good) copy_polygons(scene, &source);
+    limni_release_all(&context);
+    return good;
+}
+
+static bool read_mesh(peer_scene *scene, const char *path) {
+    if (scene->scheme == PEER_LOOP ? !read_triangles(scene, path) : !read_polygons(scene, path))
+        return false;
+    topology mesh = scene_topology(scene);
+    const bool manifold = mesh.manifold_edges;
+    scene->patch_count = scene->divided ? mesh.face_starts[mesh.face_count] : mesh.face_count;
+    topology_destroy(&mesh);
+    if (!manifold) fprintf(stderr, "limn-bench: %s is not manifold, as peers need it\n", path);
+    if (scene->patch_count <= INT32_MAX / (6u << 2 * LIMN_LEVEL_MAX)) return manifold;
+    fprintf(stderr, "limn-bench: %s has too many faces for a comparison\n", path);
+    return false;
+}
+
 /// From the arrays that the peers get too, so that no reading of files is timed.
-static bool bake(const peer_scene *scene, limn_normals normals, scene_baked *baked) {
+static bool bake(const peer_scene *scene, const limn_bake_desc *desc, scene_baked *baked) {
     const limn_bake_mesh mesh = {
         .name = scene->name,
         .positions = scene->controls[0],
         .position_count = scene->control_count,
+        .face_sizes = scene->face_sizes,
         .face_count = scene->face_count,
-        .face_indices = scene->faces[0],
+        .face_indices = scene->face_corners,
     };
     const double start = bench_seconds();
-    baked->baker = limn_baker_create(&(limn_bake_desc){.normals = normals});
+    baked->baker = limn_baker_create(desc);
     if (!baked->baker) return false;
     const bool good =
         check_bake(limn_baker_add_mesh(baked->baker, &mesh), baked->baker) &&
@@ -74,41 +124,75 @@ static bool bake(const peer_scene *scene, limn_normals normals, scene_baked *bak
     return good;
 }
 
+static bool bake_both(peer_scene *scene, bool isolated) {
+    limn_bake_desc desc = {
+        .scheme = scene->scheme == PEER_LOOP ? LIMN_SCHEME_LOOP : LIMN_SCHEME_CATMARK,
+        .isolate = isolated ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER,
+    };
+    if (!bake(scene, &desc, &scene->baked)) return false;
+    desc.normals = LIMN_NORMALS_EXACT;
+    return bake(scene, &desc, &scene->baked_with_normals);
+}
+
+// -------------------------------------------------------------------------------------------------
+// Vertices
+
+topology scene_topology(const peer_scene *scene) {
+    return topology_create(scene->face_sizes, scene->face_corners, scene->face_count,
+                           scene->control_count);
+}
+
+uint32_t scene_refinement_count(const peer_scene *scene) {
+    return scene->level + scene->divided;
+}
+
 typedef struct grid_point {
     int i, j;
 } grid_point;
 
-/// Where the corners of the child faces of one face lie, in the order of topology_refine().
-static void place_children(uint32_t level, const grid_point corners[3], grid_point (**place)[3]) {
+typedef grid_point patch_corners[LIMN_CORNER_MAX];
+
+static grid_point middle_of(grid_point a, grid_point b) {
+    return (grid_point){(a.i + b.i) / 2, (a.j + b.j) / 2};
+}
+
+/// Where the corners of the child faces of one face lie, in the order of topology_refine_…().
+static void place_children(uint32_t level, int size, const patch_corners corners,
+                           patch_corners **place) {
     if (level == 0) {
         memcpy(*(*place)++, corners, sizeof **place);
         return;
     }
-    grid_point middles[3];
-    for (int c = 0; c < 3; c++) {
-        const grid_point a = corners[c], b = corners[(c + 1) % 3];
-        middles[c] = (grid_point){(a.i + b.i) / 2, (a.j + b.j) / 2};
+    const grid_point centre = middle_of(corners[0], corners[2]);
+    patch_corners middles;
+    for (int c = 0; c < size; c++)
+        middles[c] = middle_of(corners[c], corners[(c + 1) % size]);
+    for (int c = 0; c < size; c++) {
+        const grid_point next = middles[c], before = middles[(c + size - 1) % size];
+        if (size == 3)
+            place_children(level - 1, size, (patch_corners){corners[c], next, before}, place);
+        else
+            place_children(level - 1, size, (patch_corners){corners[c], next, centre, before},
+                           place);
     }
-    for (int c = 0; c < 3; c++)
-        place_children(level - 1, (grid_point[3]){corners[c], middles[c], middles[(c + 2) % 3]},
-                       place);
-    place_children(level - 1, middles, place);
+    if (size == 3) place_children(level - 1, size, middles, place);
 }
 
 static void fill_refined(peer_scene *scene, const topology *mesh) {
     enum { CHILD_MAX = 1 << 2 * LIMN_LEVEL_MAX };
-    static grid_point places[CHILD_MAX][3];
-    grid_point(*end)[3] = places;
-    const grid_point corners[3] = {{0, 0}, {LIMN_GRID_SIZE, 0}, {0, LIMN_GRID_SIZE}};
-    place_children(scene->level, corners, &end);
+    static patch_corners places[CHILD_MAX];
+    patch_corners *end = places, corners = {{0, 0}};
+    const uint32_t size = scene->domain->corner_count, child_count = 1u << 2 * scene->level;
+    for (uint32_t c = 0; c < size; c++)
+        corners[c] = (grid_point){scene->domain->rows[c].i, scene->domain->rows[c].j};
+    place_children(scene->level, (int)size, corners, &end);
 
-    const uint32_t child_count = 1u << 2 * scene->level;
     for (uint32_t f = 0; f < mesh->face_count; f++) {
-        for (int c = 0; c < 3; c++) {
+        for (uint32_t c = 0; c < size; c++) {
             const grid_point place = places[f % child_count][c];
-            const size_t face = f / child_count;
-            scene->refined[face * scene->row_count + scene->row_at[place.i][place.j]] =
-                mesh->face_vertices[f][c];
+            const size_t patch = f / child_count;
+            scene->refined[patch * scene->row_count + scene->row_at[place.i][place.j]] =
+                mesh->face_vertices[size * f + c];
         }
     }
 }
@@ -117,7 +201,7 @@ static void number_unique(peer_scene *scene, uint32_t vertex_count) {
     uint32_t *const number = bench_allocate(vertex_count, sizeof *number);
     memset(number, 0xff, vertex_count * sizeof *number);
     scene->unique_rows = bench_allocate(vertex_count, sizeof *scene->unique_rows);
-    const uint32_t row_total = scene->face_count * scene->row_count;
+    const uint32_t row_total = scene->patch_count * scene->row_count;
     for (uint32_t row = 0; row < row_total; row++) {
         uint32_t *const mine = &number[scene->refined[row]];
         if (*mine == SCENE_NO_VERTEX) {
@@ -130,14 +214,14 @@ static void number_unique(peer_scene *scene, uint32_t vertex_count) {
 }
 
 static void find_vertices(peer_scene *scene) {
-    topology mesh = topology_create((const uint32_t(*)[3])scene->faces, scene->face_count,
-                                    scene->control_count);
-    for (uint32_t level = 0; level < scene->level; level++) {
-        topology fine = topology_refine(&mesh);
+    topology mesh = scene_topology(scene);
+    for (uint32_t level = 0; level < scene_refinement_count(scene); level++) {
+        topology fine = scene->scheme == PEER_LOOP ? topology_refine_triangles(&mesh)
+                                                   : topology_refine_quads(&mesh);
         topology_destroy(&mesh);
         mesh = fine;
     }
-    const size_t row_total = (size_t)scene->face_count * scene->row_count;
+    const size_t row_total = (size_t)scene->patch_count * scene->row_count;
     scene->refined = bench_allocate(row_total, sizeof *scene->refined);
     scene->unique = bench_allocate(row_total, sizeof *scene->unique);
     fill_refined(scene, &mesh);
@@ -145,11 +229,18 @@ static void find_vertices(peer_scene *scene) {
     topology_destroy(&mesh);
 }
 
-uint32_t scene_face_row(const peer_scene *scene, uint32_t row, uint32_t rotation) {
-    const int i = scene->domain->rows[row].i, j = scene->domain->rows[row].j;
-    const int weights[3] = {LIMN_GRID_SIZE - i - j, i, j}; // of the corners of the patch
-    return scene->row_at[weights[(4 - rotation) % 3]][weights[(5 - rotation) % 3]];
+uint32_t scene_row(const peer_scene *scene, uint32_t row, uint32_t rotation) {
+    int i = scene->domain->rows[row].i, j = scene->domain->rows[row].j;
+    for (; rotation > 0; rotation--) {
+        const int before = i;
+        i = scene->scheme == PEER_LOOP ? LIMN_GRID_SIZE - i - j : LIMN_GRID_SIZE - j;
+        j = before;
+    }
+    return scene->row_at[i][j];
 }
+
+// -------------------------------------------------------------------------------------------------
+// Bones
 
 float scene_random(uint32_t *seed) {
     *seed = *seed * 1664525u + 1013904223u;
@@ -182,25 +273,24 @@ void scene_set_bones(peer_scene *scene, bool equal) {
     }
 }
 
-bool scene_create(peer_scene *scene, const char *path, uint32_t level, uint32_t thread_count) {
+const char *scene_scheme_name(peer_scheme scheme) {
+    return scheme == PEER_LOOP ? "loop" : "catmark";
+}
+
+bool scene_create(peer_scene *scene, const char *path, const scene_desc *desc) {
     memset(scene, 0, sizeof *scene);
-    scene->level = level;
-    scene->domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE);
-    scene->row_count = scene->domain->row_counts[level];
+    scene->scheme = desc->scheme;
+    scene->level = desc->level;
+    scene->domain =
+        limn_domain_get(desc->scheme == PEER_LOOP ? LIMN_DOMAIN_TRIANGLE : LIMN_DOMAIN_QUAD);
+    scene->row_count = scene->domain->row_counts[desc->level];
     for (uint16_t r = 0; r < scene->row_count; r++)
         scene->row_at[scene->domain->rows[r].i][scene->domain->rows[r].j] = r;
-    if (!read_mesh(scene, path)) return false;
-    if (scene->face_count > INT32_MAX / (4u << 2 * LIMN_LEVEL_MAX)) {
-        fprintf(stderr, "limn-bench: %s has too many faces for a comparison\n", path);
-        return false;
-    }
-    if (!bake(scene, LIMN_NORMALS_NONE, &scene->baked) ||
-        !bake(scene, LIMN_NORMALS_EXACT, &scene->baked_with_normals))
-        return false;
+    if (!read_mesh(scene, path) || !bake_both(scene, desc->isolated)) return false;
     find_vertices(scene);
     scene->bones = bench_allocate(SCENE_BONE_COUNT, sizeof *scene->bones);
     scene_set_bones(scene, false);
-    if (thread_count > 1) scene->threads = team_create(thread_count);
+    if (desc->thread_count > 1) scene->threads = team_create(desc->thread_count);
     return true;
 }
 
@@ -209,7 +299,8 @@ void scene_destroy(peer_scene *scene) {
     limn_baker_destroy(scene->baked.baker);
     limn_baker_destroy(scene->baked_with_normals.baker);
     free(scene->controls);
-    free(scene->faces);
+    free(scene->face_sizes);
+    free(scene->face_corners);
     free(scene->refined);
     free(scene->unique);
     free(scene->unique_rows);

@@ -4,6 +4,7 @@
 #define SCENE_H
 
 #include "team.h"
+#include "topology.h"
 
 #include "limn/limn.h"
 
@@ -28,39 +29,66 @@ typedef struct scene_baked {
     struct limn_baker *baker; ///< owns the blob
 } scene_baked;
 
-/// A row of a face is a row of the triangle domain with corner c of the face as corner c.
+typedef enum peer_scheme {
+    PEER_LOOP,   ///< of triangles: patches are faces, of the triangle domain
+    PEER_CATMARK ///< Catmull-Clark: patches of the quad domain, see peer_scene
+} peer_scheme;
+
+/// "loop" or "catmark".
+const char *scene_scheme_name(peer_scheme scheme);
+
+/// How meshes are read and subdivided, and by how many threads.
+typedef struct scene_desc {
+    peer_scheme scheme;
+    uint32_t level;
+    uint32_t thread_count;
+    bool isolated; ///< Limn with limn_mesh_refine() and small tables
+} scene_desc;
+
+/// A patch is a face, with corner c of the face as corner c; or where a mesh of Catmull-Clark has
+/// faces that are not quads, for all faces what one step of subdivision makes at each of their
+/// corners, as topology_refine_quads() does.
 typedef struct peer_scene {
     char name[64];
+    peer_scheme scheme;
     uint32_t level;
-    uint32_t row_count;                                      ///< of a face at that level
+    uint32_t row_count;                                      ///< of a patch at that level
     uint16_t row_at[LIMN_GRID_SIZE + 1][LIMN_GRID_SIZE + 1]; ///< the row at grid point i, j
     const limn_domain *domain;
     float (*controls)[3]; ///< [control_count]
     uint32_t control_count;
-    uint32_t (*faces)[3]; ///< [face_count] in the order of the file
+    uint32_t *face_sizes;   ///< [face_count] in the order of the file
+    uint32_t *face_corners; ///< of all faces, one after the other
     uint32_t face_count;
+    bool divided; ///< whether a patch is a part of a face
+    uint32_t patch_count;
 
-    scene_baked baked, baked_with_normals; ///< from the above, in memory
+    scene_baked baked, baked_with_normals;
 
-    /// [face_count][row_count] vertices of the refined mesh, numbered as by topology_refine().
+    /// [patch_count][row_count] vertices of the refined mesh, numbered as by topology_refine_…().
     uint32_t *refined;
-    /// [face_count][row_count] the same, numbered as the rows of one face after the other first
+    /// [patch_count][row_count] the same, numbered as the rows of one patch after the other first
     /// meet them.
     uint32_t *unique;
     uint32_t unique_count;
-    uint32_t *unique_rows; ///< [unique_count] face * row_count + row where it is first met
+    uint32_t *unique_rows; ///< [unique_count] patch * row_count + row where it is first met
 
     scene_bone *bones; ///< [SCENE_BONE_COUNT]
     team *threads;     ///< NULL: one thread only
 } peer_scene;
 
 /// Reads, repairs and bakes a mesh. False after a message; destroy it all the same.
-bool scene_create(peer_scene *scene, const char *path, uint32_t level, uint32_t thread_count);
+bool scene_create(peer_scene *scene, const char *path, const scene_desc *desc);
 void scene_destroy(peer_scene *scene);
 
-/// The row of a face that is row `row` of its patch, of which corner c is corner c + rotation of
-/// the face.
-uint32_t scene_face_row(const peer_scene *scene, uint32_t row, uint32_t rotation);
+topology scene_topology(const peer_scene *scene);
+
+/// How often the mesh is refined: once more than the patches where they are parts of faces.
+uint32_t scene_refinement_count(const peer_scene *scene);
+
+/// The row of a patch that is row `row` of Limn's patch there, of which corner c is corner
+/// c + rotation of the former.
+uint32_t scene_row(const peer_scene *scene, uint32_t row, uint32_t rotation);
 
 /// Makes all bones equal, a rotation and a shift, so that skinning any points with any weights
 /// moves them rigidly; or all different.
