@@ -46,9 +46,10 @@ typedef struct limni_class {
     uint32_t table_count;               ///< 1, or 3 with the tangents
     uint32_t row_stride;                ///< rows of a column in the file
     float negative;                     ///< see limn_file_class; of pieces, the largest of theirs
-    float *table;    ///< [table_count][control_count][row_stride]; NULL: in pieces
-    uint16_t *parts; ///< [LIMNI_PIECE_COUNT] the pieces, and [LIMNI_PIECE_COUNT][control_count] the
-                     ///< column of each slot; NULL: it has a table
+    float *table; ///< [table_count][control_count][row_stride]; NULL: in pieces
+    uint16_t *
+        parts; ///< [LIMN_FORMAT_PIECE_COUNT] the pieces, and [LIMN_FORMAT_PIECE_COUNT][control_count] the
+               ///< column of each slot; NULL: it has a table
     limni_edge_prints *prints; ///< [control_count]
 } limni_class;
 
@@ -59,7 +60,7 @@ static inline size_t limni_class_table_size(const limni_class *class) {
 
 /// Bytes of what a class in pieces has instead.
 static inline size_t limni_class_parts_size(const limni_class *class) {
-    return LIMNI_PIECE_COUNT * (1 + (size_t) class->control_count) * sizeof *class->parts;
+    return LIMN_FORMAT_PIECE_COUNT * (1 + (size_t) class->control_count) * sizeof *class->parts;
 }
 
 /// As it is stored, its table at the start of the tables.

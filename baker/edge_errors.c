@@ -31,7 +31,7 @@ typedef struct measurer {
     limn_mesh view;
     limn_file_run part;
     limn_file_class record;
-    limn_file_piece pieces[LIMNI_PIECE_COUNT];
+    limn_file_piece pieces[LIMN_FORMAT_PIECE_COUNT];
     float *tables;     ///< of the pieces, one behind the other; NULL: the class has a table
     uint16_t *columns; ///< as a class has them
     float points[BATCH * LIMNI_ROWS_MAX][3];
@@ -85,7 +85,7 @@ static limn_bake_status copy_pieces(limni_context *context, measurer *m, const l
                                     const limni_classes *pieces) {
     const size_t parts_size = limni_class_parts_size(class);
     size_t size = 0;
-    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++) {
+    for (uint32_t p = 0; p < LIMN_FORMAT_PIECE_COUNT; p++) {
         const limni_class *const piece = &pieces->items[class->parts[p]];
         m->pieces[p] = limni_piece_record(piece);
         m->pieces[p].table_offset = size;
@@ -95,7 +95,7 @@ static limn_bake_status copy_pieces(limni_context *context, measurer *m, const l
     m->columns = limni_allocate(context, parts_size, 1);
     if (!m->tables || !m->columns) return LIMN_BAKE_MEMORY;
     memcpy(m->columns, class->parts, parts_size);
-    for (uint16_t p = 0; p < LIMNI_PIECE_COUNT; p++) {
+    for (uint16_t p = 0; p < LIMN_FORMAT_PIECE_COUNT; p++) {
         const limni_class *const piece = &pieces->items[class->parts[p]];
         memcpy((unsigned char *)m->tables + m->pieces[p].table_offset, piece->table,
                limni_class_table_size(piece));

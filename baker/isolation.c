@@ -18,8 +18,9 @@ limn_bake_status limni_isolation_begin(limni_context *context, const limni_mesh 
     isolation->slots = limni_allocate(context, refined->control_count, sizeof(uint32_t));
     isolation->marks = limni_allocate_zeroed(context, refined->control_count, sizeof(uint32_t));
     isolation->points = limni_allocate(context, most, sizeof(uint32_t));
-    isolation->columns = limni_allocate(context, LIMNI_PIECE_COUNT * most, sizeof(uint16_t));
-    isolation->parts = limni_allocate(context, LIMNI_PIECE_COUNT * (1 + most), sizeof(uint16_t));
+    isolation->columns = limni_allocate(context, LIMN_FORMAT_PIECE_COUNT * most, sizeof(uint16_t));
+    isolation->parts =
+        limni_allocate(context, LIMN_FORMAT_PIECE_COUNT * (1 + most), sizeof(uint16_t));
     return isolation->slots && isolation->marks && isolation->points && isolation->columns &&
                    isolation->parts
                ? LIMN_BAKE_OK
@@ -58,7 +59,7 @@ static uint32_t piece_face(const limni_isolation *isolation, uint32_t face, uint
 static limn_bake_status find_pieces(limni_context *context, limni_isolation *isolation,
                                     const limni_rules *rules, uint32_t face, uint32_t rotation,
                                     limni_classes *pieces) {
-    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++) {
+    for (uint32_t p = 0; p < LIMN_FORMAT_PIECE_COUNT; p++) {
         const uint32_t own = piece_face(isolation, face, rotation, p);
         const bool corner = is_corner(isolation, p);
         const uint32_t turned = corner ? 0 : rotation;
@@ -79,7 +80,7 @@ static uint32_t slot_of(limni_isolation *isolation, uint32_t point, uint32_t *co
     if (isolation->marks[point] != isolation->mark) {
         isolation->marks[point] = isolation->mark;
         isolation->slots[point] = *count;
-        for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++)
+        for (uint32_t p = 0; p < LIMN_FORMAT_PIECE_COUNT; p++)
             isolation->columns[p * LIMNI_LOCAL_BASE_MAX + *count] = LIMN_FORMAT_NO_COLUMN;
         isolation->points[(*count)++] = point;
     }
@@ -109,7 +110,7 @@ uint32_t limni_isolation_list(limni_isolation *isolation, const limni_classes *p
     const uint32_t size = limni_face_size(mesh, face), first = mesh->offsets[face];
     for (uint32_t corner = 0; corner < size; corner++)
         slot_of(isolation, mesh->corners[first + (corner + rotation) % size], &count);
-    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++)
+    for (uint32_t p = 0; p < LIMN_FORMAT_PIECE_COUNT; p++)
         list_piece(isolation, pieces, p, piece_face(isolation, face, rotation, p), &count);
     return count;
 }
@@ -131,8 +132,8 @@ static limni_class describe_class(const limni_isolation *isolation, const limni_
         class.valences[corner] = mesh->valences[control];
         class.boundary_corners |= (uint32_t)limni_is_boundary(mesh, control) << corner;
     }
-    uint16_t *columns = class.parts + LIMNI_PIECE_COUNT;
-    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++, columns += count) {
+    uint16_t *columns = class.parts + LIMN_FORMAT_PIECE_COUNT;
+    for (uint32_t p = 0; p < LIMN_FORMAT_PIECE_COUNT; p++, columns += count) {
         const uint32_t key = isolation->assigned.keys[piece_face(isolation, face, rotation, p)];
         class.parts[p] = (uint16_t)pieces->keys[key].class_index;
         const float negative = pieces->items[class.parts[p]].negative;

@@ -20,7 +20,7 @@ typedef struct limni_isolation {
     uint32_t *slots, *marks;     ///< [points] see limni_classifier
     uint32_t mark;
     uint32_t *points;  ///< [LIMNI_LOCAL_BASE_MAX] of the last patch, by slot
-    uint16_t *columns; ///< [LIMNI_PIECE_COUNT][LIMNI_LOCAL_BASE_MAX]
+    uint16_t *columns; ///< [LIMN_FORMAT_PIECE_COUNT][LIMNI_LOCAL_BASE_MAX]
     uint16_t *parts;   ///< the same, packed behind the pieces: see limni_class
 } limni_isolation;
 

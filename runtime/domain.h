@@ -48,10 +48,7 @@ typedef struct limni_layout {
 /// domain down to level 3. Of a triangle, rows between two pieces belong to the middle one; of a
 /// quad, to the piece at whose corner the edge starts from which they lead to the middle of the
 /// patch. All four have that middle, and the first gives it.
-enum {
-    LIMNI_PIECE_COUNT = LIMN_FORMAT_PIECE_COUNT,
-    LIMNI_PIECE_PLACES = 320 ///< of all pieces of a patch, at most
-};
+enum { LIMNI_PIECE_PLACES = 320 }; ///< of all pieces of a patch, at most
 
 typedef enum limni_piece_kind {
     LIMNI_PIECE_CORNER, ///< its corner 0 is the patch's, its first and last edges halves of edges

@@ -76,7 +76,7 @@ static inline limni_piece limni_piece_of(const limni_run *run, uint32_t p) {
     const limni_pieces *const pieces = run->pieces;
     return (limni_piece){
         .table = run->table + record->table_offset / sizeof(float),
-        .columns = run->parts + LIMNI_PIECE_COUNT + (size_t)p * run->control_count,
+        .columns = run->parts + LIMN_FORMAT_PIECE_COUNT + (size_t)p * run->control_count,
         .positions = &pieces->positions[record->kind],
         .tangents = &pieces->tangents[record->kind],
         .table_stride = (size_t)record->control_count * limn_file_piece_stride(record),

@@ -181,7 +181,7 @@ static limn_result validate_pieces(const limn_pack *pack, const limn_file_chunk 
         const limn_file_piece *const piece = &pack->pieces[p];
         if (piece->domain >= LIMN_DOMAIN_COUNT ||
             piece->kind > limni_piece_kind_of(limn_domain_get((limn_domain_kind)piece->domain),
-                                              LIMNI_PIECE_COUNT - 1) ||
+                                              LIMN_FORMAT_PIECE_COUNT - 1) ||
             piece->control_count > LIMN_FORMAT_CONTROLS_MAX ||
             !are_tables_inside(tables, piece->table_offset, piece->table_count,
                                piece->control_count, limn_file_piece_stride(piece)))
@@ -209,8 +209,8 @@ static limn_result validate_parts(const limn_pack *pack, const limn_file_class *
         return LIMN_ERROR_PIECE;
     const uint16_t *const words =
         (const uint16_t *)(const void *)bytes_at(pack, chunk->offset + class->table_offset);
-    const uint16_t *columns = words + LIMNI_PIECE_COUNT;
-    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++, columns += class->control_count) {
+    const uint16_t *columns = words + LIMN_FORMAT_PIECE_COUNT;
+    for (uint32_t p = 0; p < LIMN_FORMAT_PIECE_COUNT; p++, columns += class->control_count) {
         if (words[p] >= pack->piece_count) return LIMN_ERROR_PIECE;
         const limn_file_piece *const piece = &pack->pieces[words[p]];
         if (piece->domain != class->domain || piece->kind != limni_piece_kind_of(domain, p) ||

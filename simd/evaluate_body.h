@@ -81,7 +81,7 @@ static inline void clear_padding(const limn_domain *domain, scratch *rows) {
 /// What the pieces of a run are, and what those of one patch are between summing and being placed.
 typedef struct assembly {
     const limni_pieces *layouts;
-    limni_piece items[LIMNI_PIECE_COUNT];
+    limni_piece items[LIMN_FORMAT_PIECE_COUNT];
     scratch staged;
 } assembly;
 
@@ -179,7 +179,7 @@ static inline void find_table_normals(const limn_domain *domain, const wanted *w
 }
 
 static inline void find_piece_normals(assembly *a, uint32_t level, vectors *normals) {
-    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++)
+    for (uint32_t p = 0; p < LIMN_FORMAT_PIECE_COUNT; p++)
         find_normals(&a->staged.across, a->items[p].first_place,
                      a->items[p].tangents->counts[level], &a->staged.along);
     place_rows(a->layouts->normal_copies, a->layouts->normal_copy_counts[level], &a->staged.along,
@@ -322,7 +322,7 @@ static inline void sum_all_piece_tangents(assembly *a, const chosen *which, cons
                                           const piece_points *points, size_t corner_count) {
     vectors *const out[2] = {&a->staged.along, &a->staged.across};
     const uint32_t *const corners = which->indices;
-    for (size_t p = 0; p < LIMNI_PIECE_COUNT; p++) {
+    for (size_t p = 0; p < LIMN_FORMAT_PIECE_COUNT; p++) {
         const limni_piece *const piece = &a->items[p];
         const uint32_t end = piece->tangents->counts[which->level];
         if (end == 0) continue;
@@ -362,7 +362,7 @@ static inline void sum_pieces(assembly *a, const limni_run *run, const chosen *w
                                  .absolute = {absolute, absolute + count},
                                  .buffer = absolute + count,
                                  .moved = absolute + 2 * count};
-    for (size_t p = 0; p < LIMNI_PIECE_COUNT; p++)
+    for (size_t p = 0; p < LIMN_FORMAT_PIECE_COUNT; p++)
         sum_piece_positions(&a->items[p], &points, origin, which->level, &a->staged.positions);
     place_rows(a->layouts->position_copies, a->layouts->position_copy_counts[which->level],
                &a->staged.positions, positions);
@@ -438,7 +438,7 @@ static LIMNI_INLINE void evaluate_assembly(const limni_run *run, gathering *g,
                                            const limni_points *from, const limni_target *target) {
     assembly pieces;
     pieces.layouts = run->pieces;
-    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++)
+    for (uint32_t p = 0; p < LIMN_FORMAT_PIECE_COUNT; p++)
         pieces.items[p] = limni_piece_of(run, p);
     clear_rows(&pieces.staged, LIMNI_PIECE_PLACES);
     evaluate_patches(run, g, from, target, false, &pieces);

@@ -45,7 +45,7 @@ static inline column_place place_in_pieces(const limni_run *run, uint32_t corner
     while (copy + 1 < end && copy[1].to <= row)
         copy++;
     const uint32_t staged = copy->from + row - copy->to;
-    uint32_t p = LIMNI_PIECE_COUNT - 1;
+    uint32_t p = LIMN_FORMAT_PIECE_COUNT - 1;
     while (limni_piece_of(run, p).first_place > staged)
         p--;
     const limni_piece piece = limni_piece_of(run, p);

@@ -206,7 +206,7 @@ static const limni_pieces *pieces;
 static uint32_t row_waiting(const limni_piece_layout layouts[2], uint32_t staged, uint32_t *piece,
                             uint32_t *at) {
     const uint32_t stride = layouts[LIMNI_PIECE_CORNER].row_stride;
-    *piece = staged / stride < domain->corner_count ? staged / stride : LIMNI_PIECE_COUNT - 1;
+    *piece = staged / stride < domain->corner_count ? staged / stride : LIMN_FORMAT_PIECE_COUNT - 1;
     *at = staged - *piece * stride;
     const limni_piece_layout *const layout = &layouts[limni_piece_kind_of(domain, *piece)];
     if (*at >= layout->row_stride || layout->rows[*at] == LIMNI_NO_ROW) return LIMNI_NO_ROW;
@@ -295,7 +295,7 @@ static void test_pieces(void) {
     CHECK(domain->corner_count * pieces->positions[LIMNI_PIECE_CORNER].row_stride +
               pieces->positions[LIMNI_PIECE_MIDDLE].row_stride <=
           LIMNI_PIECE_PLACES);
-    const int last_kind = limni_piece_kind_of(domain, LIMNI_PIECE_COUNT - 1);
+    const int last_kind = limni_piece_kind_of(domain, LIMN_FORMAT_PIECE_COUNT - 1);
     for (int kind = LIMNI_PIECE_CORNER; kind <= last_kind; kind++) {
         check_piece_layout(&pieces->positions[kind], (limni_piece_kind)kind);
         check_piece_layout(&pieces->tangents[kind], (limni_piece_kind)kind);

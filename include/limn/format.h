@@ -60,8 +60,8 @@ extern "C" {
     LIMN_FORMAT_KIND('T', 'A', 'B', 'L') ///< float[]: the stencil tables of all classes
 
 /// Where meshes are isolated: limn_file_piece[]; and uint16_t[], of each class that is made of
-/// pieces first the four pieces, the corners' and the middle one, and then for each of them the
-/// column of each of the K slots, or LIMN_FORMAT_NO_COLUMN.
+/// pieces first the four pieces, the corners' and of a triangle the middle one, and then for each of
+/// them the column of each of the K slots, or LIMN_FORMAT_NO_COLUMN.
 #define LIMN_CHUNK_PIECES LIMN_FORMAT_KIND('P', 'I', 'E', 'C')
 #define LIMN_CHUNK_COLUMNS LIMN_FORMAT_KIND('C', 'O', 'L', 'S')
 

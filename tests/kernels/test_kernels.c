@@ -57,7 +57,7 @@ typedef struct made {
     size_t row_count, corner_count;
     limn_file_run runs[CLASSES];
     limn_file_class classes[CLASSES];
-    limn_file_piece pieces[CLASSES * LIMNI_PIECE_COUNT];
+    limn_file_piece pieces[CLASSES * LIMN_FORMAT_PIECE_COUNT];
     uint16_t *columns;
     float *tables;
     uint32_t *indices;
@@ -125,10 +125,10 @@ static uint64_t make_pieces(made *m, uint32_t c, uint64_t table, uint16_t **colu
     uint64_t size = 0;
     m->classes[c].table_offset = (uint64_t)(parts - m->columns) * sizeof *parts;
     m->classes[c].depth = LIMN_FORMAT_PIECE_DEPTH;
-    *columns += LIMNI_PIECE_COUNT * (1 + (size_t)count);
-    for (uint32_t p = 0; p < LIMNI_PIECE_COUNT; p++) {
-        const uint32_t index = c * LIMNI_PIECE_COUNT + p;
-        uint16_t *const of_piece = parts + LIMNI_PIECE_COUNT + (size_t)p * count;
+    *columns += LIMN_FORMAT_PIECE_COUNT * (1 + (size_t)count);
+    for (uint32_t p = 0; p < LIMN_FORMAT_PIECE_COUNT; p++) {
+        const uint32_t index = c * LIMN_FORMAT_PIECE_COUNT + p;
+        uint16_t *const of_piece = parts + LIMN_FORMAT_PIECE_COUNT + (size_t)p * count;
         uint16_t used = 0;
         parts[p] = (uint16_t)index;
         for (uint32_t slot = 0; slot < count; slot++) {
@@ -159,7 +159,7 @@ static void make(made *m, limn_domain_kind domain, bool in_pieces) {
     m->row_count = m->mesh.domain->row_counts[LIMN_LEVEL_MAX];
     m->corner_count = m->mesh.domain->corner_count;
     m->tables = aligned_alloc(64, 3 * (total + CLASSES) * PLACES_MAX * sizeof(float)); // or less
-    m->columns = malloc(LIMNI_PIECE_COUNT * (total + CLASSES) * sizeof *m->columns);
+    m->columns = malloc(LIMN_FORMAT_PIECE_COUNT * (total + CLASSES) * sizeof *m->columns);
     uint16_t *columns = m->columns;
     m->indices = malloc(total * PATCHES * sizeof(uint32_t));
     m->slots = malloc(total * PATCHES * 2 + CLASSES);
