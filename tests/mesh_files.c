@@ -36,6 +36,14 @@ int mesh_files_visit(void (*visit)(const char *path)) {
     return count;
 }
 
+limn_scheme mesh_files_scheme(const char *path) {
+    static const char *const words[] = {"catmark_", "/quads/", "control_mesh", "suzanne"};
+    for (int w = 0; w < 4; w++) {
+        if (strstr(path, words[w])) return LIMN_SCHEME_CATMARK;
+    }
+    return strstr(path, "bilinear_") ? LIMN_SCHEME_NONE : LIMN_SCHEME_LOOP;
+}
+
 bool mesh_files_have_tags(const char *path) {
     static const char *const words[] = {"crease", "sharp", "edgecorner", "dart", "sail"};
     const char *const slash = strrchr(path, '/');

@@ -3,21 +3,26 @@
  * Bitwise watertight: for every mesh, level and kernel, every vertex that two patches share has the
  * same bits in both. And the tables: rows sum to 1 and have no negative coefficient.
  */
-#include "../baker/mesh.h"
+#include "../baker/base.h"
 #include "check.h"
 #include "coefficients.h"
 #include "limn/format.h"
 #include "limn/limn.h"
 #include "mesh_files.h"
+#include "random_polygons.h"
 
 #include <math.h>
 #include <stdlib.h>
+
+enum { ISOLATED_MAX = 5000 }; ///< patches
 
 /// A mesh twice: as the baker connects it, and baked.
 typedef struct subject {
     const char *path;
     limni_context context;
-    limni_mesh mesh; ///< for its half-edge pairs
+    limni_mesh source;
+    limni_base base;
+    const limni_mesh *mesh; ///< of the base, for its half-edge pairs
     limn_baker *baker;
     limn_pack pack;
     limn_mesh baked;
@@ -40,12 +45,15 @@ static bool load(subject *s, const char *path, const limn_bake_desc *desc) {
     s->baked = limn_pack_mesh(&s->pack, 0);
 
     limni_source source = {0};
+    const limni_rules rules = {.scheme = desc->scheme, .creases = desc->creases};
     CHECK_EQUAL(limni_read_file(&s->context, path, &source), LIMN_BAKE_OK);
-    CHECK_EQUAL(limni_mesh_build(&s->context, &source, &s->mesh), LIMN_BAKE_OK);
-    CHECK_EQUAL(s->mesh.face_count, s->baked.face_count);
-    CHECK(s->mesh.hole_count <= s->baked.face_count - s->baked.patch_count);
-    s->patches = limni_allocate(&s->context, s->mesh.face_count, sizeof *s->patches);
-    memset(s->patches, 0xff, s->mesh.face_count * sizeof *s->patches);
+    CHECK_EQUAL(limni_mesh_build(&s->context, &source, &s->source), LIMN_BAKE_OK);
+    CHECK_EQUAL(limni_base_begin(&s->context, &s->source, &rules, &s->base), LIMN_BAKE_OK);
+    s->mesh = s->base.mesh;
+    CHECK_EQUAL(s->mesh->face_count, s->baked.face_count);
+    CHECK(s->mesh->hole_count <= s->baked.face_count - s->baked.patch_count);
+    s->patches = limni_allocate(&s->context, s->mesh->face_count, sizeof *s->patches);
+    memset(s->patches, 0xff, s->mesh->face_count * sizeof *s->patches);
     for (uint32_t patch = 0; patch < s->baked.patch_count; patch++)
         s->patches[limn_mesh_face(&s->baked, patch).face] = patch;
     s->control_normals = limni_allocate(&s->context, s->baked.normal_count, 3 * sizeof(float));
@@ -58,10 +66,19 @@ static void unload(subject *s) {
     limn_baker_destroy(s->baker);
 }
 
+/// The patch of the face at half-edge h, and the edge of the patch that it is.
+static uint32_t patch_of(const subject *s, uint32_t h) {
+    return s->patches[s->mesh->face_of[h]];
+}
+static uint32_t edge_of(const subject *s, uint32_t h) {
+    const uint32_t face = s->mesh->face_of[h], size = limni_face_size(s->mesh, face);
+    const uint32_t rotation = limn_mesh_face(&s->baked, s->patches[face]).rotation;
+    return (h - s->mesh->offsets[face] + size - rotation) % size;
+}
+
 /// The rows of the patch along half-edge h, in its direction.
 static const uint16_t *rows_along(const subject *s, uint32_t h) {
-    const limn_patch_face face = limn_mesh_face(&s->baked, s->patches[h / 3]);
-    return s->baked.domain->edge_rows[(h % 3 + 3 - face.rotation) % 3];
+    return s->baked.domain->edge_rows[edge_of(s, h)];
 }
 
 /// A position and a normal.
@@ -72,18 +89,18 @@ static uint32_t side_of(const limn_mesh *mesh, uint32_t patch, uint32_t e, uint3
     uint32_t corners[LIMN_CORNER_MAX];
     if (t > 0 && t < LIMN_GRID_SIZE)
         return mesh->creases && mesh->creases[patch] >> e & 1 ? patch : LIMNI_NONE;
-    const uint32_t corner = t == 0 ? e : (e + 1) % 3;
+    const uint32_t corner_count = mesh->domain->corner_count;
+    const uint32_t corner = t == 0 ? e : (e + 1) % corner_count;
     limn_mesh_corners(mesh, patch, corners);
-    return mesh->corner_normals ? mesh->corner_normals[3 * patch + corner] : corners[corner];
+    return mesh->corner_normals ? mesh->corner_normals[corner_count * patch + corner]
+                                : corners[corner];
 }
 
 /// Whether the two patches at half-edge h have a normal in common at row t: not on a crease.
 static bool share_normal(const subject *s, uint32_t h, uint32_t t) {
-    const uint32_t pair = s->mesh.pairs[h];
-    const uint32_t a = s->patches[h / 3], b = s->patches[pair / 3];
-    const uint32_t e = (h % 3 + 3 - limn_mesh_face(&s->baked, a).rotation) % 3;
-    const uint32_t f = (pair % 3 + 3 - limn_mesh_face(&s->baked, b).rotation) % 3;
-    return side_of(&s->baked, a, e, t) == side_of(&s->baked, b, f, LIMN_GRID_SIZE - t);
+    const uint32_t pair = s->mesh->pairs[h];
+    return side_of(&s->baked, patch_of(s, h), edge_of(s, h), t) ==
+           side_of(&s->baked, patch_of(s, pair), edge_of(s, pair), LIMN_GRID_SIZE - t);
 }
 
 /// How many vertices on shared edges differ in any bit.
@@ -91,13 +108,13 @@ static uint64_t count_differences(const subject *s, uint32_t level, const vertex
     const uint32_t row_count = s->baked.domain->row_counts[level];
     const uint32_t step = LIMN_GRID_SIZE >> level;
     uint64_t differences = 0;
-    for (uint32_t h = 0; h < s->mesh.half_edge_count; h++) {
-        const uint32_t pair = s->mesh.pairs[h];
+    for (uint32_t h = 0; h < s->mesh->half_edge_count; h++) {
+        const uint32_t pair = s->mesh->pairs[h];
         if (pair == LIMNI_NONE || pair < h) continue;
-        if (s->patches[h / 3] == LIMNI_NONE || s->patches[pair / 3] == LIMNI_NONE) continue;
+        if (patch_of(s, h) == LIMNI_NONE || patch_of(s, pair) == LIMNI_NONE) continue;
         const uint16_t *const along = rows_along(s, h), *const against = rows_along(s, pair);
-        const vertex *const a = vertices + (size_t)s->patches[h / 3] * row_count;
-        const vertex *const b = vertices + (size_t)s->patches[pair / 3] * row_count;
+        const vertex *const a = vertices + (size_t)patch_of(s, h) * row_count;
+        const vertex *const b = vertices + (size_t)patch_of(s, pair) * row_count;
         for (uint32_t t = 0; t <= LIMN_GRID_SIZE; t += step) {
             const size_t size = share_normal(s, h, t) ? sizeof *a : 3 * sizeof(float);
             differences += memcmp(a[along[t]], b[against[LIMN_GRID_SIZE - t]], size) != 0;
@@ -125,21 +142,21 @@ static meeting meet(const limni_mesh *mesh, uint32_t a, uint32_t b) {
 /// sheets.
 static uint64_t count_sheet_differences(const subject *s, uint32_t level, const vertex *vertices) {
     const uint32_t row_count = s->baked.domain->row_counts[level];
-    uint32_t *const edges = malloc((size_t)s->mesh.half_edge_count * sizeof *edges);
+    uint32_t *const edges = malloc((size_t)s->mesh->half_edge_count * sizeof *edges);
     uint32_t count = 0;
     const uint32_t step = LIMN_GRID_SIZE >> level;
     uint64_t differences = 0;
-    for (uint32_t h = 0; h < s->mesh.half_edge_count && s->mesh.origins; h++) {
-        if (s->patches[h / 3] != LIMNI_NONE &&
-            limni_is_split(&s->mesh, limni_half_edge_start(&s->mesh, h)) &&
-            limni_is_split(&s->mesh, limni_half_edge_end(&s->mesh, h)))
+    for (uint32_t h = 0; h < s->mesh->half_edge_count && s->mesh->origins; h++) {
+        if (patch_of(s, h) != LIMNI_NONE &&
+            limni_is_split(s->mesh, limni_half_edge_start(s->mesh, h)) &&
+            limni_is_split(s->mesh, limni_half_edge_end(s->mesh, h)))
             edges[count++] = h;
     }
     for (uint32_t e = 0; e < count; e++) {
         for (uint32_t f = 0; f < e; f++) {
-            const meeting met = meet(&s->mesh, edges[e], edges[f]);
+            const meeting met = meet(s->mesh, edges[e], edges[f]);
             if (met == APART) continue;
-            const uint32_t a = s->patches[edges[e] / 3], b = s->patches[edges[f] / 3];
+            const uint32_t a = patch_of(s, edges[e]), b = patch_of(s, edges[f]);
             const uint16_t *const along = rows_along(s, edges[e]), *const other =
                                                                        rows_along(s, edges[f]);
             for (uint32_t t = 0; t <= LIMN_GRID_SIZE; t += step) {
@@ -158,15 +175,15 @@ static uint64_t count_sheet_differences(const subject *s, uint32_t level, const 
 /// The same for the vertices themselves, where sheets may have no edge in common.
 static uint64_t count_corner_differences(const subject *s, uint32_t level, const vertex *vertices) {
     const uint32_t row_count = s->baked.domain->row_counts[level];
-    if (!s->mesh.origins) return 0;
-    const uint32_t origin_count = s->mesh.origins[s->mesh.control_count - 1] + 1;
+    if (!s->mesh->origins) return 0;
+    const uint32_t origin_count = s->mesh->origins[s->mesh->control_count - 1] + 1;
     const vertex **const places = calloc(origin_count, sizeof *places);
     uint64_t differences = 0;
-    for (uint32_t h = 0; h < s->mesh.half_edge_count; h++) {
-        if (s->patches[h / 3] == LIMNI_NONE) continue;
+    for (uint32_t h = 0; h < s->mesh->half_edge_count; h++) {
+        if (patch_of(s, h) == LIMNI_NONE) continue;
         const vertex *const here =
-            &vertices[(size_t)s->patches[h / 3] * row_count + rows_along(s, h)[0]];
-        const vertex **const place = &places[s->mesh.origins[limni_half_edge_start(&s->mesh, h)]];
+            &vertices[(size_t)patch_of(s, h) * row_count + rows_along(s, h)[0]];
+        const vertex **const place = &places[s->mesh->origins[limni_half_edge_start(s->mesh, h)]];
         if (!*place) *place = here;
         differences += memcmp(here, *place, 3 * sizeof(float)) != 0;
     }
@@ -229,7 +246,7 @@ static double least_coefficient = -0x1p-26;
 static void check_tables(const limn_mesh *mesh) {
     for (uint32_t r = 0; r < mesh->run_count; r++) {
         const limn_file_class *const class = &mesh->classes[mesh->runs[r].class_index];
-        for (uint32_t row = 0; row < 153; row++) {
+        for (uint32_t row = 0; row < mesh->domain->row_counts[LIMN_LEVEL_MAX]; row++) {
             const column_place place = place_of_row(mesh, r, 0, row);
             double sum = 0;
             for (uint32_t slot = 0; slot < class->control_count; slot++) {
@@ -273,8 +290,8 @@ static void check_all(subject *s) {
     check_points(&s->baked);
 }
 
-/// Bakes a mesh, mended if it must be, and checks it.
-static void check_file(const char *path, limn_bake_desc desc) {
+/// Bakes a mesh, mended if it must be, and checks it. Returns how many patches it has.
+static uint32_t check_file(const char *path, limn_bake_desc desc) {
     subject s;
     bool loaded = load(&s, path, &desc);
     if (!loaded) {
@@ -290,14 +307,24 @@ static void check_file(const char *path, limn_bake_desc desc) {
     } else {
         fprintf(stderr, "    %s: %s\n", path, limn_baker_error(s.baker));
     }
+    const uint32_t patch_count = s.baked.patch_count;
     unload(&s);
+    return patch_count;
 }
 
-static void visit(const char *path) {
-    limn_bake_desc desc = {.creases = creases, .normals = LIMN_NORMALS_EXACT};
-    check_file(path, desc);
+static void visit_with(const char *path, limn_scheme scheme) {
+    limn_bake_desc desc = {.scheme = scheme, .creases = creases, .normals = LIMN_NORMALS_EXACT};
+    const uint32_t patch_count = check_file(path, desc);
     desc.isolate = LIMN_ISOLATE_ALWAYS;
-    check_file(path, desc);
+    if (patch_count <= ISOLATED_MAX) check_file(path, desc);
+}
+
+/// Lomont's rules are for triangles. What poles of 360 faces have, those of test_generated() have in
+/// less time; and isolated, large meshes have nothing that others have not.
+static void visit(const char *path) {
+    if (strstr(path, "pole360")) return;
+    const bool lomont = creases == LIMN_CREASES_LOMONT;
+    visit_with(path, lomont ? LIMN_SCHEME_LOOP : mesh_files_scheme(path));
 }
 
 static void write_vertices(FILE *file, uint32_t count, double height) {
@@ -326,6 +353,26 @@ static void test_generated(uint32_t valence, bool closed) {
     remove(path);
 }
 
+/// The same of quads, around one pole or between two. From 128 faces on, a patch has more than 256
+/// control points.
+static void test_generated_quads(uint32_t valence, bool closed) {
+    static const char path[] = "test_watertight_generated.obj";
+    const uint32_t rim = 2 * valence;
+    FILE *const file = fopen(path, "w");
+    if (!CHECK(file)) return;
+    write_vertices(file, rim, 1.5);
+    for (uint32_t v = 0; v < rim; v += 2) {
+        const uint32_t next = v + 1, last = (v + 2) % rim, before = (v + rim - 1) % rim;
+        if (!closed && last == 0) break;
+        fprintf(file, "f %u %u %u %u\n", rim + 1, v + 1, next + 1, last + 1);
+        if (closed) fprintf(file, "f %u %u %u %u\n", rim + 2, next + 1, v + 1, before + 1);
+    }
+    const int closed_file = fclose(file);
+    CHECK(closed_file == 0);
+    visit_with(path, LIMN_SCHEME_CATMARK);
+    remove(path);
+}
+
 /// A flat mesh has normals with zeros, whose signs must agree too.
 static void test_flat(void) {
     static const char path[] = "test_watertight_flat.obj";
@@ -337,18 +384,19 @@ static void test_flat(void) {
     }
     for (int corner = 1; corner < 42; corner++) {
         if (corner % 7 == 0) continue;
-        fprintf(file, "f %d %d %d\nf %d %d %d\n", corner, corner + 1, corner + 8, corner,
-                corner + 8, corner + 7);
+        fprintf(file, "f %d %d %d %d\n", corner, corner + 1, corner + 8, corner + 7);
     }
     const int closed_file = fclose(file);
     CHECK(closed_file == 0);
-    visit(path);
+    visit_with(path, LIMN_SCHEME_LOOP);
+    visit_with(path, LIMN_SCHEME_CATMARK);
+    visit_with(path, LIMN_SCHEME_NONE);
     remove(path);
 }
 
 /// A torus of 12 by 8 quads, cut in two, with tags from 0 to for ever on a third of its edges:
-/// creases that cross, end and stop, beside semi-sharp ones.
-static void test_tagged(bool chaikin) {
+/// creases that cross, end and stop, beside semi-sharp ones. For Catmull-Clark, of quads.
+static void test_tagged(limn_scheme scheme, bool chaikin) {
     enum { AROUND = 12, ACROSS = 8, COUNT = AROUND * ACROSS };
     static const char path[] = "test_watertight_tagged.obj";
     FILE *const file = fopen(path, "w");
@@ -362,9 +410,14 @@ static void test_tagged(bool chaikin) {
     for (int v = 0; v < COUNT; v++) {
         const int right = v / AROUND * AROUND + (v + 1) % AROUND;
         const int up = (v + AROUND) % COUNT, far = (right + AROUND) % COUNT;
-        fprintf(file, "f %d %d %d\nf %d %d %d\n", v + 1, right + 1, far + 1, v + 1, far + 1,
-                up + 1);
-        const int ends[3] = {right, far, up};
+        const bool quads = scheme == LIMN_SCHEME_CATMARK;
+        if (quads) {
+            fprintf(file, "f %d %d %d %d\n", v + 1, right + 1, far + 1, up + 1);
+        } else {
+            fprintf(file, "f %d %d %d\nf %d %d %d\n", v + 1, right + 1, far + 1, v + 1, far + 1,
+                    up + 1);
+        }
+        const int ends[3] = {right, quads ? up : far, up};
         if (v % 11 == 0) fprintf(file, "t corner 1/1/0 %d %g\n", v, v % 3 * 0.85);
         fprintf(file, "t crease 2/1/0 %d %d %g\n", v, ends[v % 3], v % 4 ? v % 7 * 0.55 : 10.0);
     }
@@ -372,7 +425,7 @@ static void test_tagged(bool chaikin) {
     CHECK(closed_file == 0);
     const unsigned long long before = split_vertices;
     least_coefficient = chaikin ? -1.0 / 24 : -0x1p-26;
-    visit(path);
+    visit_with(path, scheme);
     least_coefficient = -0x1p-26;
     CHECK(split_vertices > before);
     remove(path);
@@ -380,21 +433,21 @@ static void test_tagged(bool chaikin) {
 
 /// All sheets have the error of the edge, and with it its level.
 static void check_errors(const subject *s) {
-    for (uint32_t a = 0; a < s->mesh.half_edge_count && s->mesh.origins; a++) {
+    const uint32_t corner_count = s->baked.domain->corner_count;
+    for (uint32_t a = 0; a < s->mesh->half_edge_count && s->mesh->origins; a++) {
         for (uint32_t b = 0; b < a; b++) {
-            const uint32_t p = s->patches[a / 3], q = s->patches[b / 3];
-            if (meet(&s->mesh, a, b) == APART || p == LIMNI_NONE || q == LIMNI_NONE) continue;
-            const uint32_t turn = limn_mesh_face(&s->baked, p).rotation,
-                           other_turn = limn_mesh_face(&s->baked, q).rotation;
-            CHECK_EQUAL(s->baked.errors[3 * p + (a % 3 + 3 - turn) % 3],
-                        s->baked.errors[3 * q + (b % 3 + 3 - other_turn) % 3]);
+            const uint32_t p = patch_of(s, a), q = patch_of(s, b);
+            if (meet(s->mesh, a, b) == APART || p == LIMNI_NONE || q == LIMNI_NONE) continue;
+            CHECK_EQUAL(s->baked.errors[corner_count * p + edge_of(s, a)],
+                        s->baked.errors[corner_count * q + edge_of(s, b)]);
         }
     }
 }
 
 /// Four pages of a grid around a spine, which bends, and so numbered that copies behind all others
-/// would be in another order on some pages; and a loose face at one corner.
-static void test_book(void) {
+/// would be in another order on some pages; and a loose face at one corner. For Catmull-Clark pages
+/// are of quads but for the last, and so all faces are divided.
+static void test_book(limn_scheme scheme) {
     enum { PAGES = 4, LENGTH = 6, WIDTH = 3 };
     static const char path[] = "test_watertight_book.obj";
     FILE *const file = fopen(path, "w");
@@ -418,6 +471,10 @@ static void test_book(void) {
                           second = p % 2 ? outer + v : inner + v;
                 // On the last page diagonals turn: on the spine there are two faces, or four.
                 const int turned = p == PAGES - 1 && v % 2;
+                if (scheme == LIMN_SCHEME_CATMARK && p < PAGES - 1) {
+                    fprintf(file, "f %d %d %d %d\n", first, first + 1, second + 1, second);
+                    continue;
+                }
                 fprintf(file, "f %d %d %d\nf %d %d %d\n", first, first + 1, second + turned,
                         turned ? first : first + 1, second + 1, second);
             }
@@ -430,10 +487,11 @@ static void test_book(void) {
     const int closed_file = fclose(file);
     CHECK(closed_file == 0);
     const unsigned long long before = sheet_vertices;
-    visit(path);
+    visit_with(path, scheme);
     CHECK(sheet_vertices > before);
     subject s;
-    const limn_bake_desc desc = {.repair = LIMN_REPAIR_ALL,
+    const limn_bake_desc desc = {.scheme = scheme,
+                                 .repair = LIMN_REPAIR_ALL,
                                  .non_manifold = LIMN_NON_MANIFOLD_SPLIT,
                                  .normals = LIMN_NORMALS_EXACT};
     if (CHECK(load(&s, path, &desc))) check_errors(&s);
@@ -449,9 +507,9 @@ static void visit_tagged(const char *path) {
 static void test_lomont(void) {
     creases = LIMN_CREASES_LOMONT;
     mesh_files_visit(visit_tagged);
-    test_tagged(false);
+    test_tagged(LIMN_SCHEME_LOOP, false);
     test_generated(20, false);
-    test_book();
+    test_book(LIMN_SCHEME_LOOP);
     creases = LIMN_CREASES_OPENSUBDIV;
 }
 
@@ -459,6 +517,16 @@ static void test_warren(const char *path) {
     check_file(path, (limn_bake_desc){.normals = LIMN_NORMALS_EXACT,
                                       .weights = LIMN_WEIGHTS_WARREN,
                                       .isolate = LIMN_ISOLATE_ALWAYS});
+}
+
+/// Quads and other polygons, closed and with boundaries, with tags and without.
+static void test_random(uint64_t seed) {
+    static const char path[] = "test_watertight_random.obj";
+    random_polygons mesh = random_polygons_make(seed, seed % 2, seed / 2 % 2);
+    if (!CHECK(random_polygons_write(&mesh, seed / 4 % 2, path))) return;
+    visit_with(path, LIMN_SCHEME_CATMARK);
+    visit_with(path, LIMN_SCHEME_NONE);
+    remove(path);
 }
 
 /// The height of a triangle over its longest side; its normal, of unit length, goes to `normal`.
@@ -478,20 +546,24 @@ static double measure_triangle(double edges[2][3], double normal[3]) {
     return doubled_area / sqrt(fmax(squares[0], fmax(squares[1], squares[2])));
 }
 
-/// How far a vertex is from the place (i, j) in the flat triangle of its patch, or its normal from
-/// the triangle's by more than points that are `rounding` off explain, whichever is more.
-static double off_triangle(const limn_mesh *mesh, uint32_t patch, limn_row row, double rounding,
-                           const float *values) {
+/// How far a vertex is from the place (i, j) in the flat triangle or the bilinear quad of its patch,
+/// or its normal from that there by more than points that are `rounding` off explain, whichever is
+/// more.
+static double off_patch(const limn_mesh *mesh, uint32_t patch, limn_row row, double rounding,
+                        const float *values) {
+    const double u = (double)row.i / LIMN_GRID_SIZE, v = (double)row.j / LIMN_GRID_SIZE;
+    const bool quad = mesh->domain->kind == LIMN_DOMAIN_QUAD;
     uint32_t corners[LIMN_CORNER_MAX];
     double edges[2][3], normal[3], off = 0;
     limn_mesh_corners(mesh, patch, corners);
-    const float *const a = mesh->controls + 3 * (size_t)corners[0];
-    for (int axis = 0; axis < 3; axis++) {
-        for (int e = 0; e < 2; e++)
-            edges[e][axis] =
-                (double)mesh->controls[3 * (size_t)corners[1 + e] + (size_t)axis] - (double)a[axis];
-        const double place =
-            (double)a[axis] + (row.i * edges[0][axis] + row.j * edges[1][axis]) / LIMN_GRID_SIZE;
+    for (size_t axis = 0; axis < 3; axis++) {
+        double at[LIMN_CORNER_MAX];
+        for (uint32_t c = 0; c < mesh->domain->corner_count; c++)
+            at[c] = (double)mesh->controls[3 * (size_t)corners[c] + axis];
+        const double last = at[quad ? 3 : 2], bend = quad ? at[0] - at[1] + at[2] - at[3] : 0;
+        const double place = at[0] + u * (at[1] - at[0]) + v * (last - at[0]) + u * v * bend;
+        edges[0][axis] = at[1] - at[0] + v * bend;
+        edges[1][axis] = last - at[0] + u * bend;
         off = fmax(off, fabs((double)values[axis] - place));
     }
     const double tilt = rounding / measure_triangle(edges, normal);
@@ -500,7 +572,7 @@ static double off_triangle(const limn_mesh *mesh, uint32_t patch, limn_row row, 
     return off;
 }
 
-/// Without a scheme patches are flat triangles, evenly divided, with a normal each.
+/// Without a scheme patches are flat triangles, evenly divided, with a normal each, or bilinear.
 static void test_no_scheme(const char *path, limn_isolate isolate) {
     subject s;
     const limn_bake_desc desc = {
@@ -511,19 +583,38 @@ static void test_no_scheme(const char *path, limn_isolate isolate) {
     vertex *const vertices = malloc((size_t)plan.vertex_count * sizeof *vertices);
     CHECK_EQUAL(evaluate_and_count(&s, s.pack.kernels, LIMN_LEVEL_MAX, vertices), 0u);
     double furthest = 0, rounding = 0;
-    // Half-sized triangles between points of level 1, each rounded in three coordinates.
+    // Half-sized faces between points of level 1, each rounded in three coordinates.
     for (int axis = 0; axis < 3 && isolate == LIMN_ISOLATE_ALWAYS; axis++)
         rounding +=
             4 * 0x1p-24 * (double)fmaxf(s.baked.bounds_max[axis], -s.baked.bounds_min[axis]);
     for (uint32_t v = 0; v < plan.vertex_count; v++) {
-        const limn_row row = s.baked.domain->rows[v % 153];
-        furthest = fmax(furthest, off_triangle(&s.baked, v / 153, row, rounding, vertices[v]));
+        const uint32_t row_count = s.baked.domain->row_counts[LIMN_LEVEL_MAX];
+        const limn_row row = s.baked.domain->rows[v % row_count];
+        furthest = fmax(furthest, off_patch(&s.baked, v / row_count, row, rounding, vertices[v]));
     }
-    printf("without a scheme: at most %.2e from the triangles\n", furthest);
+    printf("without a scheme: at most %.2e from the faces\n", furthest);
     CHECK(furthest < 1e-6);
     CHECK_EQUAL(s.baked.run_count, 1u);
     free(vertices);
     unload(&s);
+}
+
+/// The same of a prism, of which pentagons are divided, and with them all other faces.
+static void test_no_scheme_prism(void) {
+    static const char path[] = "test_watertight_prism.obj";
+    FILE *const file = fopen(path, "w");
+    if (!CHECK(file)) return;
+    for (int v = 0; v < 10; v++)
+        fprintf(file, "v %.6f %.6f %.6f\n", 2 * cos(6.283185307 * v / 5 + v / 5),
+                2 * sin(6.283185307 * v / 5 + v / 5), v / 5 * 3 + v % 2 * 0.3);
+    for (int v = 1; v <= 5; v++)
+        fprintf(file, "f %d %d %d %d\n", v, v % 5 + 1, v % 5 + 6, v + 5);
+    fprintf(file, "f 5 4 3 2 1\nf 6 7 8 9 10\n");
+    const int closed_file = fclose(file);
+    CHECK(closed_file == 0);
+    test_no_scheme(path, LIMN_ISOLATE_NEVER);
+    test_no_scheme(path, LIMN_ISOLATE_ALWAYS);
+    remove(path);
 }
 
 /// Puts the control points of every patch in slot order: what watertightness depends on is undone.
@@ -540,9 +631,10 @@ static void shuffle(const subject *s, uint8_t *slots) {
 }
 
 /// This test must be able to fail: without the ascending order, shared vertices do differ.
-static void test_order_matters(const char *path) {
+static void test_order_matters(const char *path, limn_scheme scheme) {
     subject s;
-    if (!CHECK(load(&s, path, &(limn_bake_desc){.normals = LIMN_NORMALS_EXACT}))) return;
+    const limn_bake_desc desc = {.scheme = scheme, .normals = LIMN_NORMALS_EXACT};
+    if (!CHECK(load(&s, path, &desc))) return;
     const limn_plan plan = limn_plan_uniform(&s.baked, LIMN_LEVEL_MAX);
     const limn_file_run *const last = &s.baked.runs[s.baked.run_count - 1];
     const size_t index_count =
@@ -568,19 +660,33 @@ int main(void) {
            "creases without their normals, and %llu pairs of vertices of sheets\n",
            total_meshes, refused_meshes, total_vertices, split_vertices, sheet_vertices);
     test_flat();
-    test_book();
-    test_tagged(false);
-    test_tagged(true);
+    test_book(LIMN_SCHEME_LOOP);
+    test_book(LIMN_SCHEME_CATMARK);
+    for (int chaikin = 0; chaikin < 2; chaikin++) {
+        test_tagged(LIMN_SCHEME_LOOP, chaikin);
+        test_tagged(LIMN_SCHEME_CATMARK, chaikin);
+    }
     test_lomont();
-    static const uint32_t valences[] = {3, 7, 20, 26, 64, 255, 300, 500};
-    for (int v = 0; v < 8; v++) {
+    static const uint32_t valences[] = {3, 7, 20, 26, 64, 255, 300};
+    for (int v = 0; v < 7; v++) {
         test_generated(valences[v], true);
         test_generated(valences[v] / 4 + 3, false);
     }
+    for (uint32_t valence = 3; valence < 256; valence *= 6) {
+        test_generated_quads(valence + 22, true);
+        test_generated_quads(valence, false);
+    }
+    for (uint64_t seed = 0; seed < 8; seed++)
+        test_random(seed);
     snprintf(path, sizeof path, "%s/imp.obj", getenv("LIMN_ASSETS"));
     test_warren(path);
-    test_order_matters(path);
+    test_order_matters(path, LIMN_SCHEME_LOOP);
+    test_order_matters(path, LIMN_SCHEME_CATMARK);
     test_no_scheme(path, LIMN_ISOLATE_NEVER);
     test_no_scheme(path, LIMN_ISOLATE_ALWAYS);
+    snprintf(path, sizeof path, "%s/cube.off", getenv("LIMN_ASSETS"));
+    test_no_scheme(path, LIMN_ISOLATE_NEVER);
+    test_no_scheme(path, LIMN_ISOLATE_ALWAYS);
+    test_no_scheme_prism();
     return check_report();
 }
