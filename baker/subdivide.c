@@ -388,12 +388,14 @@ static uint32_t tangent_start(const subdivision *s, const level *l, const limni_
     return 2 * place_in_ring(l, star, next) + (place.edges == 0);
 }
 
-/// Likewise at a corner that is new: corner 1 where edge 0 would go on, others anywhere.
+/// Likewise at a corner that is new: corner 1 where edge 0 would go on, others at their own edge.
 static uint32_t corner_tangent_start(const subdivision *s, const level *l, const limni_star *star,
                                      uint32_t corner, int depth) {
-    if (corner != 1) return 0;
-    const uint32_t before = s->row_at[LIMN_GRID_SIZE - (LIMN_GRID_SIZE >> depth)][0];
-    return limni_star_opposite(star, place_in_ring(l, star, before));
+    const uint32_t step = LIMN_GRID_SIZE >> depth;
+    if (corner == 1)
+        return limni_star_opposite(
+            star, place_in_ring(l, star, s->domain->edge_rows[0][LIMN_GRID_SIZE - step]));
+    return 2 * place_in_ring(l, star, s->domain->edge_rows[corner][step]);
 }
 
 /// The tangents of all rows that have them, from the vertices of the level behind theirs.
