@@ -93,6 +93,11 @@ static void note_rules(limni_context *context, const limni_rules *rules, bool is
                    "%s: a mesh of Lomont's with OpenSubdiv's creases and boundaries; his are "
                    "--creases lomont",
                    place_of(mesh));
+    if (rules->scheme == LIMN_SCHEME_BUTTERFLY && context->desc.isolate == LIMN_ISOLATE_AUTO)
+        limni_note(context,
+                   "%s: not isolated: with the butterfly that divides the mesh, which --isolate 1 "
+                   "asks for",
+                   place_of(mesh));
     if (rules->scheme == LIMN_SCHEME_BUTTERFLY && limni_has_sharpness(mesh))
         limni_note(context, "%s: sharp edges and vertices are smooth: the butterfly has no creases",
                    place_of(mesh));

@@ -311,9 +311,19 @@ static limn_bake_status place_points(limni_context *context, const arrangement *
 
 // ---- All steps
 
-/// Bounds of the control points that faces use. The origin is 0 where that is as good as any, so
-/// that most meshes do not depend on their bounds.
-static void find_bounds(const limni_mesh *mesh, limn_file_mesh *record) {
+/// What sums are relative to: 0 where that is as good as any, so that most meshes do not depend on
+/// their bounds. Where the surface goes through the control points it is the middle only if all are
+/// within half and twice of it: their differences from it are exact then.
+static float find_origin(const limni_rules *rules, float low, float high) {
+    const float middle = low + (high - low) / 2;
+    const float nearest = fminf(fabsf(low), fabsf(high));
+    if (low <= 0 && high >= 0) return 0;
+    if (rules->scheme == LIMN_SCHEME_BUTTERFLY && nearest < fabsf(middle) / 2) return 0;
+    return middle;
+}
+
+/// Bounds of the control points that faces use.
+static void find_bounds(const limni_mesh *mesh, const limni_rules *rules, limn_file_mesh *record) {
     for (int axis = 0; axis < 3; axis++) {
         float low = INFINITY, high = -INFINITY;
         for (uint32_t c = 0; c < mesh->control_count; c++) {
@@ -324,7 +334,7 @@ static void find_bounds(const limni_mesh *mesh, limn_file_mesh *record) {
         }
         record->bounds_min[axis] = low;
         record->bounds_max[axis] = high;
-        record->origin[axis] = low <= 0 && high >= 0 ? 0 : low + (high - low) / 2;
+        record->origin[axis] = find_origin(rules, low, high);
     }
 }
 
@@ -343,7 +353,7 @@ limn_bake_status limni_patches_build(limni_context *context, const limni_base *b
                    .patch_count = mesh->face_count - mesh->hole_count,
                    .hole_count = mesh->hole_count},
     };
-    find_bounds(base->source, &patches->record);
+    find_bounds(base->source, rules, &patches->record);
     arrangement a = {
         .base = base, .mesh = mesh, .rules = rules, .classes = classes, .pieces = pieces};
     LIMNI_TRY(begin_arrangement(context, &a));

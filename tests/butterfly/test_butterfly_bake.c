@@ -183,7 +183,10 @@ static void bake_and_compare(const random_mesh *random, float tension, limn_isol
 int main(void) {
     static const float tensions[] = {0, 1 / 32.0f, -1 / 20.0f};
     for (uint64_t seed = 0; seed < SEED_COUNT; seed++) {
-        const random_mesh random = random_mesh_make(seed, seed % 2 == 1);
+        random_mesh random = random_mesh_make(seed, seed % 2 == 1);
+        // Some lie beside the origin, far from it or near.
+        for (uint32_t v = 0; v < random.vertex_count && seed % 4 > 1; v++)
+            random.positions[v][seed % 3] += seed % 4 == 2 ? 3.1f : 9.7f;
         bake_and_compare(&random, tensions[seed % 3], LIMN_ISOLATE_NEVER);
         if (seed % 4 == 3) bake_and_compare(&random, tensions[seed / 4], LIMN_ISOLATE_ALWAYS);
     }
