@@ -224,6 +224,27 @@ static limn_view random_view(float extent) {
     return limn_view_orthographic(eye, target, up, extent, 640, 480, 1, 40);
 }
 
+/// Levels by length follow from the base vertices at the ends of an edge.
+static void check_levels(const limn_plan *plan, const limn_view *view, float pixels) {
+    bool right = true;
+    for (uint32_t p = 0; p < plan->patch_count; p++) {
+        const limn_plan_patch *const item = &plan->patches[p];
+        uint32_t corners[LIMN_CORNER_MAX];
+        limn_mesh_corners(plan->mesh, item->patch, corners);
+        for (uint32_t e = 0; e < 4; e++) {
+            const float *const a = plan->mesh->controls + 3 * (size_t)corners[e];
+            const float *const b = plan->mesh->controls + 3 * (size_t)corners[(e + 1) % 4];
+            double square = 0;
+            for (int axis = 0; axis < 3; axis++)
+                square += ((double)a[axis] - (double)b[axis]) * ((double)a[axis] - (double)b[axis]);
+            const double wanted = log2(sqrt(square) * (double)(view->pixels / pixels));
+            const double level = item->edge_levels[e] - 1 + (double)item->edge_morphs[e];
+            right &= fabs(level - fmin(fmax(wanted, 0), 4)) < 0.02;
+        }
+    }
+    CHECK(right);
+}
+
 /// By length, by error, and any levels; the whole torus is in view.
 static void test_frames(const drawing *d, void *memory) {
     uint32_t levels = 0;
@@ -235,6 +256,7 @@ static void test_frames(const drawing *d, void *memory) {
         limn_plan plan =
             limn_plan_build(d->mesh, d->mesh->controls, &view, 1, &desc, templates, memory);
         CHECK_EQUAL(plan.patch_count, d->mesh->patch_count);
+        if (desc.lod == LIMN_LOD_LENGTH) check_levels(&plan, &view, desc.pixels);
         uint64_t index_count = 0;
         for (uint32_t p = 0; p < plan.patch_count; p++) {
             index_count += templates[plan.patches[p].template_index].index_count;
@@ -248,7 +270,7 @@ static void test_frames(const drawing *d, void *memory) {
     CHECK(levels >= 1u << 3); // fine ones, too
 }
 
-/// All patches at level 0: four points or more, twice as many edges, as many faces.
+/// All patches at level 0, of two triangles each.
 static void test_coarsest(const drawing *d) {
     const limn_plan plan = limn_plan_uniform(d->mesh, 0);
     draw(d, &plan);
