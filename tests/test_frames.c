@@ -675,6 +675,9 @@ int main(void) {
     snprintf(path, sizeof path, "%s/imp.obj", getenv("LIMN_ASSETS"));
     test_can_fail(path, LIMN_SCHEME_LOOP);
     test_can_fail(path, LIMN_SCHEME_CATMARK);
+    test_frames(path, LIMN_SCHEME_BUTTERFLY, LIMN_ISOLATE_ALWAYS, 0, FRAMES_PER_MESH);
+    snprintf(path, sizeof path, "%s/sail.obj", getenv("LIMN_ASSETS"));
+    visit_with(path, LIMN_SCHEME_BUTTERFLY);
     snprintf(path, sizeof path, "%s/../docs/box.obj", getenv("LIMN_ASSETS")); // has sharp corners
     visit(path);
     for (uint64_t seed = 0; seed < 4; seed++)

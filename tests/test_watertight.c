@@ -45,7 +45,8 @@ static bool load(subject *s, const char *path, const limn_bake_desc *desc) {
     s->baked = limn_pack_mesh(&s->pack, 0);
 
     limni_source source = {0};
-    const limni_rules rules = {.scheme = desc->scheme, .creases = desc->creases};
+    const limni_rules rules = {
+        .scheme = desc->scheme, .creases = desc->creases, .isolate = desc->isolate};
     CHECK_EQUAL(limni_read_file(&s->context, path, &source), LIMN_BAKE_OK);
     CHECK_EQUAL(limni_mesh_build(&s->context, &source, &s->source), LIMN_BAKE_OK);
     CHECK_EQUAL(limni_base_begin(&s->context, &s->source, &rules, &s->base), LIMN_BAKE_OK);
@@ -240,7 +241,8 @@ static void check_mesh(subject *s) {
     free(other);
 }
 
-/// Below 0 only where it is what two floats leave, and with Chaikin's method (docs/design.md).
+/// Below 0 only where it is what two floats leave, and with Chaikin's method and the butterfly
+/// (docs/design.md).
 static double least_coefficient = -0x1p-26;
 
 static void check_tables(const limn_mesh *mesh) {
@@ -513,6 +515,20 @@ static void test_lomont(void) {
     creases = LIMN_CREASES_OPENSUBDIV;
 }
 
+/// Closed, and with a boundary.
+static void test_butterfly(const char *closed) {
+    const limn_bake_desc desc = {.scheme = LIMN_SCHEME_BUTTERFLY, .normals = LIMN_NORMALS_EXACT};
+    limn_bake_desc isolated = desc;
+    char open[4096];
+    isolated.isolate = LIMN_ISOLATE_ALWAYS;
+    snprintf(open, sizeof open, "%s/sail.obj", getenv("LIMN_ASSETS"));
+    least_coefficient = -0.2;
+    check_file(open, desc);
+    check_file(open, isolated);
+    check_file(closed, isolated);
+    least_coefficient = -0x1p-26;
+}
+
 static void test_warren(const char *path) {
     check_file(path, (limn_bake_desc){.normals = LIMN_NORMALS_EXACT,
                                       .weights = LIMN_WEIGHTS_WARREN,
@@ -680,6 +696,7 @@ int main(void) {
         test_random(seed);
     snprintf(path, sizeof path, "%s/imp.obj", getenv("LIMN_ASSETS"));
     test_warren(path);
+    test_butterfly(path);
     test_order_matters(path, LIMN_SCHEME_LOOP);
     test_order_matters(path, LIMN_SCHEME_CATMARK);
     test_no_scheme(path, LIMN_ISOLATE_NEVER);
