@@ -180,7 +180,7 @@ static void check_is_eigenvector(const limni_scheme *scheme, const limni_rules *
     const uint32_t size = mask_size(scheme, star);
     step(scheme, rules, star, mask, stepped);
     double longest = 0, eigenvalue = 0;
-    limni_fixed sum = 0;
+    limni_wide sum = 0;
     for (uint32_t w = 0; w < size; w++) {
         sum += mask[w];
         if (fabs(value(mask[w])) <= longest) continue;
@@ -189,7 +189,7 @@ static void check_is_eigenvector(const limni_scheme *scheme, const limni_rules *
     }
     CHECK(longest > 1e-6 && eigenvalue > 0.2 && eigenvalue < 0.7);
     const double rounding = 1e-13 + 1e-15 * size; // of a sum of all weights
-    CHECK_NEAR(value(sum), 0, rounding);
+    CHECK_NEAR(value((limni_fixed)sum), 0, rounding);
     for (uint32_t w = 0; w < size; w++)
         CHECK_NEAR(stepped[w], eigenvalue * value(mask[w]), w == 0 ? rounding : 1e-13);
 }
