@@ -42,22 +42,29 @@ bake() {
     echo "status $status" >>"$name.txt"
 }
 
-# Bakes every mesh as it is, and mended with the other options, isolated; and those of the repository together, with both
-# and with Lomont's creases. File names are relative, so that the builds say the same words.
+# Bakes the meshes in turn: as they are; mended with the other options, isolated; as polygons, by Catmull-Clark; and those of
+# the repository together, in these ways, with Lomont's creases, and by the butterfly. File names are relative, so that the builds say the same words.
 bake_all() {
     build=$1
     shift
     rm -rf "$work_folder/$build.out"
     mkdir "$work_folder/$build.out"
     cd "$work_folder/$build.out"
+    turn=0
     for mesh in "$@"; do
         name=$(basename "$(dirname "$mesh")")-$(basename "$mesh")
-        bake "$build" "plain-$name" "$mesh"
-        bake "$build" "mended-$name" --repair --non-manifold split --weights warren --boundary edge-and-corner --isolate 1 "$mesh"
+        case $turn in
+        0) bake "$build" "plain-$name" "$mesh" ;;
+        1) bake "$build" "mended-$name" --repair --non-manifold split --weights warren --boundary edge-and-corner --isolate 1 "$mesh" ;;
+        2) bake "$build" "polygons-$name" --repair --non-manifold split --scheme catmark --isolate 1 "$mesh" ;;
+        esac
+        turn=$(((turn + 1) % 3))
     done
     set -- "$source_folder"/assets/*.obj "$source_folder"/assets/*.off
     bake "$build" dense-all --normals exact "$@"
     bake "$build" isolated-all --normals exact --weights warren --isolate 1 "$@"
+    bake "$build" polygons-all --normals exact --scheme catmark "$@"
+    bake "$build" butterfly-all --normals exact --scheme butterfly --tension 0.02 --isolate 1 "$@"
     bake "$build" lomont --creases lomont --normals exact "$source_folder"/assets/*.obj "$source_folder"/docs/box.obj
     cd "$source_folder"
 }
