@@ -1059,13 +1059,22 @@ static void test_made(limn_domain_kind domain, bool in_pieces, bool golden, bool
     free(m.slots);
 }
 
-/// The reproducible kernels; with the argument `golden`, only their golden hashes; with `fast`, the
-/// fast kernels.
+static bool has_argument(int argc, char **argv, const char *word) {
+    for (int a = 1; a < argc; a++) {
+        if (strcmp(argv[a], word) == 0) return true;
+    }
+    return false;
+}
+
+/// The reproducible kernels on triangles, or with the argument `quads` on those, so that both can
+/// run at a time; with `fast`, the fast kernels. With `golden`, only the golden hashes, of both.
 int main(int argc, char **argv) {
-    const bool golden = argc > 1 && strcmp(argv[1], "golden") == 0;
-    const bool fast = argc > 1 && strcmp(argv[1], "fast") == 0;
+    const bool golden = has_argument(argc, argv, "golden");
+    const bool fast = has_argument(argc, argv, "fast");
+    const int own = has_argument(argc, argv, "quads") ? LIMN_DOMAIN_QUAD : LIMN_DOMAIN_TRIANGLE;
     test_selection();
     for (int domain = 0; domain < LIMN_DOMAIN_COUNT; domain++) {
+        if (!golden && domain != own) continue;
         test_made((limn_domain_kind)domain, false, golden, fast);
         test_made((limn_domain_kind)domain, true, golden, fast);
     }
