@@ -8,7 +8,8 @@
  * bytes on every host and compiler.
  *
  * The imp is modelled as one would by hand: half a cage of quads on x >= 0, limbs grown out of its
- * faces ring by ring, quads cut in two, the other half mirrored, and a pose at the end.
+ * faces ring by ring, quads cut in two where triangles are wanted, the other half mirrored, and a
+ * pose at the end.
  */
 #include <math.h>
 #include <stdbool.h>
@@ -16,7 +17,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { max_points = 1024, max_faces = 1024, max_corners = 6, max_edges = 3072, max_path = 1024 };
+enum {
+    max_points = 1024,
+    max_faces = 1024,
+    max_corners = 8,
+    max_edges = 3072,
+    max_creases = 64,
+    max_path = 1024
+};
 
 static const double grid = 10000.0; /* coordinates are multiples of 1 / grid */
 
@@ -29,10 +37,16 @@ typedef struct face {
     int corners[max_corners]; /* counter-clockwise seen from outside */
 } face;
 
+typedef struct crease {
+    int a, b;
+    double sharpness;
+} crease;
+
 typedef struct mesh {
-    int point_count, face_count;
+    int point_count, face_count, crease_count;
     point points[max_points];
     face faces[max_faces];
+    crease creases[max_creases];
 } mesh;
 
 static _Noreturn void fail(const char *which, const char *what) {
@@ -100,6 +114,11 @@ static int add_triangle(mesh *m, int a, int b, int c) {
 
 static int add_quad(mesh *m, int a, int b, int c, int d) {
     return add_face(m, (face){4, {a, b, c, d}});
+}
+
+static void add_crease(mesh *m, int a, int b, double sharpness) {
+    if (m->crease_count == max_creases) fail("mesh", "too many creases");
+    m->creases[m->crease_count++] = (crease){a, b, sharpness};
 }
 
 static int corner_after(const face *f, int corner) {
@@ -422,7 +441,7 @@ static void grow_horn(mesh *m) {
     grow(m, &(limb){top, 1, false, along_z, 3, horn, false});
 }
 
-/* ---- from half a quad cage to a whole triangle mesh ---- */
+/* ---- from half a cage to a whole one ---- */
 
 static double squared_distance(const mesh *m, int a, int b) {
     const point d = subtract(m->points[a], m->points[b]);
@@ -457,8 +476,12 @@ static void mirror(mesh *m, const mesh *other) {
         image[i] = m->points[i].x == 0.0 ? i : add_point(m, (point){-p.x, p.y, p.z});
     }
     for (int i = 0; i < other->face_count; ++i) {
-        const int *c = other->faces[i].corners;
-        add_triangle(m, image[c[2]], image[c[1]], image[c[0]]);
+        const face *const f = &other->faces[i];
+        face reversed = {.count = f->count};
+        for (int k = 0; k < f->count; ++k) {
+            reversed.corners[k] = image[f->corners[f->count - 1 - k]];
+        }
+        add_face(m, reversed);
     }
 }
 
@@ -485,14 +508,25 @@ static void build_imp_half(mesh *m, const arm_pose *pose) {
     grow_horn(m);
 }
 
-static void build_imp(mesh *m) {
+static void build_imp_of(mesh *m, bool cut) {
     static mesh other;
+    other.point_count = other.face_count = 0;
     build_imp_half(m, &hanging_arm);
     build_imp_half(&other, &raised_arm);
-    cut_quads(m);
-    cut_quads(&other);
+    if (cut) {
+        cut_quads(m);
+        cut_quads(&other);
+    }
     mirror(m, &other);
     pose_imp(m);
+}
+
+static void build_imp(mesh *m) {
+    build_imp_of(m, true);
+}
+
+static void build_quad_imp(mesh *m) {
+    build_imp_of(m, false);
 }
 
 /* ---- the torus, the sail and the cut cube ---- */
@@ -588,6 +622,87 @@ static void build_cube(mesh *m) {
     for (int i = 0; i < 7; ++i) {
         add_face(m, faces[i]);
     }
+}
+
+/* ---- the mug: quads, two octagons, creases, and a handle ---- */
+
+enum { mug_columns = 8, mug_rings = 10, mug_lip = 5, handle_sections = 4 };
+
+static const profile_point octagon[mug_columns] = {
+    {1.0, 0.4142},   {1.0, -0.4142}, {0.4142, -1.0}, {-0.4142, -1.0},
+    {-1.0, -0.4142}, {-1.0, 0.4142}, {-0.4142, 1.0}, {0.4142, 1.0},
+};
+
+/* From the foot up the outside, over the lip, and down the inside. */
+static const struct {
+    double y, radius;
+} mug[mug_rings] = {{0.0, 0.36},  {0.16, 0.42}, {0.40, 0.44}, {0.66, 0.44}, {0.90, 0.44},
+                    {1.05, 0.46}, {1.05, 0.40}, {0.80, 0.37}, {0.30, 0.36}, {0.12, 0.28}};
+
+static const double handle_width = 0.08;
+static const profile_point handle[handle_sections][2] = {
+    {{0.60, 0.72}, {0.64, 0.86}}, /* towards the mug, and away from it */
+    {{0.74, 0.62}, {0.84, 0.70}},
+    {{0.74, 0.44}, {0.84, 0.36}},
+    {{0.60, 0.34}, {0.64, 0.20}},
+};
+
+static int mug_point(int ring, int column) {
+    return mug_columns * ring + column % mug_columns;
+}
+
+/* The band above `ring` has a hole in its first column: what is around it, as the handle's
+ * sections are. */
+static void mug_hole(int ring, bool upper, int hole[4]) {
+    const int a = mug_point(ring, 0), b = mug_point(ring, 1);
+    const int c = mug_point(ring + 1, 1), d = mug_point(ring + 1, 0);
+    const int around[4] = {upper ? a : d, upper ? b : c, upper ? c : b, upper ? d : a};
+    memcpy(hole, around, sizeof around);
+}
+
+static void add_handle(mesh *m, int from_ring, int to_ring) {
+    int before[4], after[4];
+    mug_hole(from_ring, true, before);
+    for (int i = 0; i <= handle_sections; ++i) {
+        if (i == handle_sections) {
+            mug_hole(to_ring, false, after);
+        } else {
+            for (int k = 0; k < 4; ++k) {
+                const profile_point p = handle[i][k / 2];
+                const double z = k == 0 || k == 3 ? handle_width : -handle_width;
+                after[k] = add_point(m, (point){p.side, p.other, z});
+            }
+        }
+        for (int k = 0; k < 4; ++k) {
+            add_quad(m, before[k], before[(k + 1) % 4], after[(k + 1) % 4], after[k]);
+        }
+        memcpy(before, after, sizeof before);
+    }
+}
+
+static void build_mug(mesh *m) {
+    enum { handle_top = 3, handle_foot = 1 };
+    face foot = {.count = mug_columns}, inside = {.count = mug_columns};
+    for (int r = 0; r < mug_rings; ++r) {
+        for (int k = 0; k < mug_columns; ++k) {
+            add_point(m, (point){mug[r].radius * octagon[k].side, mug[r].y,
+                                 mug[r].radius * octagon[k].other});
+        }
+    }
+    for (int k = 0; k < mug_columns; ++k) {
+        for (int r = 0; r + 1 < mug_rings; ++r) {
+            if (k == 0 && (r == handle_top || r == handle_foot)) continue;
+            add_quad(m, mug_point(r, k), mug_point(r, k + 1), mug_point(r + 1, k + 1),
+                     mug_point(r + 1, k));
+        }
+        inside.corners[k] = mug_point(mug_rings - 1, k);
+        foot.corners[mug_columns - 1 - k] = mug_point(0, k);
+        add_crease(m, mug_point(0, k), mug_point(0, k + 1), 10.0);
+        add_crease(m, mug_point(mug_lip, k), mug_point(mug_lip, k + 1), 1.5);
+    }
+    add_face(m, foot);
+    add_face(m, inside);
+    add_handle(m, handle_top, handle_foot);
 }
 
 /* ---- checks ---- */
@@ -723,6 +838,10 @@ static void print_obj(const mesh *m, FILE *out) {
         }
         fputs("\n", out);
     }
+    for (int i = 0; i < m->crease_count; ++i) {
+        const crease c = m->creases[i];
+        fprintf(out, "t crease 2/1/0 %d %d %.1f\n", c.a, c.b, c.sharpness);
+    }
 }
 
 static void print_off(const mesh *m, FILE *out) {
@@ -773,6 +892,8 @@ int main(int argc, char **argv) {
         {"torus32_alternating.obj", build_alternating_torus, 0, 0},
         {"sail.obj", build_sail, 2, 0},
         {"cube.off", build_cube, 0, 2},
+        {"imp_quads.obj", build_quad_imp, 0, 2},
+        {"mug.obj", build_mug, 0, 0},
     };
     static mesh m;
     if (argc != 2) {
@@ -780,7 +901,7 @@ int main(int argc, char **argv) {
         return EXIT_FAILURE;
     }
     for (size_t i = 0; i < sizeof recipes / sizeof recipes[0]; ++i) {
-        m.point_count = m.face_count = 0;
+        m.point_count = m.face_count = m.crease_count = 0;
         recipes[i].build(&m);
         round_points(&m);
         check_mesh(&m, &recipes[i]);
