@@ -1,21 +1,21 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Same input, same bytes: builds the baker with gcc, without and with optimisation, and with clang, and compares what the
-# three of them make of every mesh, and what they say about it.
+# Same input, same bytes: builds the baker with gcc, without optimisation, and with clang, and compares what they and the
+# build under test make of every mesh, and what they say about it.
 #
-# usage: determinism_test.sh SOURCE_FOLDER WORK_FOLDER
+# usage: determinism_test.sh LIMN SOURCE_FOLDER WORK_FOLDER
 #
 # LIMN_TEST_ASSETS may name a folder of further meshes. Exit status 77: a compiler is missing, nothing was tested.
 set -eu
 
-[ $# -eq 2 ] || {
-    echo "usage: $0 SOURCE_FOLDER WORK_FOLDER" >&2
+[ $# -eq 3 ] || {
+    echo "usage: $0 LIMN SOURCE_FOLDER WORK_FOLDER" >&2
     exit 2
 }
-source_folder=$(cd "$1" && pwd)
-mkdir -p "$2"
-work_folder=$(cd "$2" && pwd)
-builds="gcc-Debug gcc-Release clang-Release"
+limn=$1
+source_folder=$(cd "$2" && pwd)
+mkdir -p "$3"
+work_folder=$(cd "$3" && pwd)
 
 for compiler in gcc clang; do
     command -v $compiler >/dev/null || {
@@ -31,9 +31,13 @@ build() {
     cmake --build "$work_folder/$1" --target limn
 }
 
+program() {
+    [ "$1" = tested ] && echo "$limn" || echo "$work_folder/$1/baker/limn"
+}
+
 # bake BUILD NAME ARGUMENT...: leaves NAME.limn, if there is one, and NAME.txt with the status and all words.
 bake() {
-    program=$work_folder/$1/baker/limn
+    program=$(program "$1")
     name=$2
     shift 2
     status=0
@@ -70,7 +74,7 @@ bake_all() {
 }
 
 rm -f "$work_folder/failures"
-for build in $builds; do
+for build in gcc-Debug clang-Release; do
     build "$build" >"$work_folder/$build.log" 2>&1 || {
         cat "$work_folder/$build.log" >&2
         exit 1
@@ -84,12 +88,12 @@ set --
 while read -r mesh; do
     set -- "$@" "$mesh"
 done <"$list"
-for build in $builds; do
+for build in gcc-Debug clang-Release tested; do
     bake_all "$build" "$@"
 done
 
 cd "$work_folder"
-for build in $builds; do
+for build in clang-Release tested; do
     diff -rq gcc-Debug.out "$build.out" >>failures || true
 done
 ls gcc-Debug.out/*.limn >/dev/null
@@ -97,4 +101,4 @@ if [ -s failures ]; then
     cat failures >&2
     exit 1
 fi
-echo "$# meshes, $(find gcc-Debug.out -name '*.limn' | wc -l) files: the same from $builds"
+echo "$# meshes, $(find gcc-Debug.out -name '*.limn' | wc -l) files: the same from each build"

@@ -75,7 +75,8 @@ expect_error() {
     shift
     rm -rf "$folder/error"
     mkdir "$folder/error"
-    "$view" "$@" >"$folder/stdout" 2>"$folder/stderr"
+    # Nothing is allocated yet where the command line is wrong.
+    ASAN_OPTIONS=detect_leaks=$((status != 2)) "$view" "$@" >"$folder/stdout" 2>"$folder/stderr"
     actual=$?
     [ $actual -eq "$status" ] || fail "'$*': exit status $actual instead of $status"
     [ -s "$folder/stderr" ] || fail "'$*': no message"
