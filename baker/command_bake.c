@@ -2,6 +2,7 @@
 #include "command.h"
 #include "output_file.h"
 #include "source.h"
+#include "write_c_array.h"
 
 #include "numbers.h"
 
@@ -55,6 +56,7 @@ static const char help[] =
     "                        (default), or split: as in OpenSubdiv, these edges are sharp and "
     "these\n"
     "                        vertices corners; each sheet gets control points of its own\n"
+    "      --c-array NAME    write C source instead of a .limn file: an array NAME of its bytes\n"
     "  -q, --quiet           only errors\n"
     "  -h, --help            this text\n\n"
     "example: limn bake body.obj head.obj -o hero.limn --weights warren\n";
@@ -62,6 +64,7 @@ static const char help[] =
 typedef struct arguments {
     limn_bake_desc desc;
     const char *output;
+    const char *array_name; ///< --c-array; NULL: a .limn file
     bool quiet, help;
     double next_progress; ///< seconds; 0: not yet set
     bool progress_shown;
@@ -101,7 +104,8 @@ enum {
     OPTION_NORMALS,
     OPTION_ISOLATE,
     OPTION_REPAIR,
-    OPTION_NON_MANIFOLD
+    OPTION_NON_MANIFOLD,
+    OPTION_C_ARRAY
 };
 
 static const struct option options[] = {
@@ -116,6 +120,7 @@ static const struct option options[] = {
     {"isolate", required_argument, NULL, OPTION_ISOLATE},
     {"repair", optional_argument, NULL, OPTION_REPAIR},
     {"non-manifold", required_argument, NULL, OPTION_NON_MANIFOLD},
+    {"c-array", required_argument, NULL, OPTION_C_ARRAY},
     {"quiet", no_argument, NULL, 'q'},
     {"help", no_argument, NULL, 'h'},
     {0},
@@ -193,6 +198,10 @@ static int parse_option(int option, arguments *given) {
         if (!limni_parse_non_manifold(optarg, &desc->non_manifold))
             return limni_usage_error("bake", "cannot '%s' what is not a manifold", optarg);
         return LIMNI_EXIT_OK;
+    case OPTION_C_ARRAY:
+        given->array_name = optarg;
+        if (limni_is_c_name(optarg)) return LIMNI_EXIT_OK;
+        return limni_usage_error("bake", "'%s' cannot be the name of an array in C", optarg);
     case 'q':
         given->quiet = true;
         return LIMNI_EXIT_OK;
@@ -242,15 +251,32 @@ static void print_summary(const char *path, const void *blob, size_t size) {
            size);
 }
 
-static limn_bake_status bake(limn_baker *baker, const arguments *given, char **inputs) {
-    for (; *inputs; inputs++)
-        LIMNI_TRY(limn_baker_add_file(baker, *inputs));
+/// Returns the exit status.
+static int write_array(const arguments *given, const void *blob, size_t size) {
+    limni_output_file file;
+    bool written = limni_output_open(&file, given->output);
+    if (written) {
+        limni_write_c_array(file.stream, given->array_name, blob, size);
+        written = limni_output_commit(&file);
+    }
+    return written ? LIMNI_EXIT_OK : limni_failure("%s: %s", given->output, file.error);
+}
+
+/// Returns the exit status.
+static int bake(limn_baker *baker, const arguments *given, char **inputs) {
+    limn_bake_status status = LIMN_BAKE_OK;
+    for (; *inputs && status == LIMN_BAKE_OK; inputs++)
+        status = limn_baker_add_file(baker, *inputs);
     const void *blob = NULL;
     size_t size = 0;
-    LIMNI_TRY(limn_baker_write(baker, given->output));
-    LIMNI_TRY(limn_baker_finish(baker, &blob, &size));
+    if (status == LIMN_BAKE_OK) status = limn_baker_finish(baker, &blob, &size);
+    if (status == LIMN_BAKE_OK && !given->array_name)
+        status = limn_baker_write(baker, given->output);
+    if (status != LIMN_BAKE_OK) return limni_failure("%s", limn_baker_error(baker));
+    if (given->array_name && write_array(given, blob, size) != LIMNI_EXIT_OK)
+        return LIMNI_EXIT_FAILED;
     if (!given->quiet) print_summary(given->output, blob, size);
-    return LIMN_BAKE_OK;
+    return LIMNI_EXIT_OK;
 }
 
 int limni_command_bake(int argc, char **argv) {
@@ -274,8 +300,7 @@ int limni_command_bake(int argc, char **argv) {
 
     limn_baker *const baker = limn_baker_create(&given.desc);
     if (!baker) return limni_failure("out of memory");
-    const limn_bake_status baked = bake(baker, &given, argv + optind);
-    if (baked != LIMN_BAKE_OK) limni_failure("%s", limn_baker_error(baker));
+    const int baked = bake(baker, &given, argv + optind);
     limn_baker_destroy(baker);
-    return baked == LIMN_BAKE_OK ? LIMNI_EXIT_OK : LIMNI_EXIT_FAILED;
+    return baked;
 }

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: MIT
 # limn_bake(): bakes meshes at build time, as part of a target.
 #
-#   limn_bake(TARGET <target> SOURCES <mesh.obj|mesh.off|mesh.ply>... [OUTPUT <file.limn>] [OPTIONS <option>...])
+#   limn_bake(TARGET <target> SOURCES <mesh.obj|mesh.off|mesh.ply>... [OUTPUT <file.limn>] [C_ARRAY <name>]
+#             [OPTIONS <option>...])
 #
 # TARGET   an existing target; the file is there before anything of it is built
 # SOURCES  the meshes, in the order they get in the file; relative paths start at CMAKE_CURRENT_SOURCE_DIR
 # OUTPUT   the file; relative paths start at CMAKE_CURRENT_BINARY_DIR; default: <target>.limn
+# C_ARRAY  bakes into C source, which becomes a part of the target: `extern const unsigned char <name>[]` and
+#          `extern const size_t <name>_size`, aligned for limn_pack_open(); OUTPUT is by default: <target>_<name>.c
 # OPTIONS  passed on to `limn bake`, such as --weights warren
 #
 # The file is baked again when a source, the options or the baker change. Its full path is appended to the target's
@@ -54,7 +57,7 @@ function(limni_bake_sources paths)
 endfunction()
 
 function(limn_bake)
-    cmake_parse_arguments(PARSE_ARGV 0 bake "" "TARGET;OUTPUT" "SOURCES;OPTIONS")
+    cmake_parse_arguments(PARSE_ARGV 0 bake "" "TARGET;OUTPUT;C_ARRAY" "SOURCES;OPTIONS")
     if(bake_UNPARSED_ARGUMENTS)
         message(FATAL_ERROR "limn_bake: unknown arguments: ${bake_UNPARSED_ARGUMENTS}")
     endif()
@@ -74,10 +77,15 @@ function(limn_bake)
         if(option MATCHES "^(-o.*|--o[^=]*(=.*)?)$")
             message(FATAL_ERROR "limn_bake: OPTIONS ${option}: use OUTPUT")
         endif()
+        if(option MATCHES "^--c")
+            message(FATAL_ERROR "limn_bake: OPTIONS ${option}: use C_ARRAY")
+        endif()
     endforeach()
 
     set(output "${bake_OUTPUT}")
-    if(NOT output)
+    if(NOT output AND bake_C_ARRAY)
+        set(output ${bake_TARGET}_${bake_C_ARRAY}.c)
+    elseif(NOT output)
         set(output ${bake_TARGET}.limn)
     endif()
     cmake_path(ABSOLUTE_PATH output BASE_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}" NORMALIZE)
@@ -94,6 +102,9 @@ function(limn_bake)
 
     # One build step per file. Its options and sources are kept in a file, because not every build tool notices that a
     # command has changed.
+    if(bake_C_ARRAY)
+        list(APPEND bake_OPTIONS --c-array ${bake_C_ARRAY})
+    endif()
     list(LENGTH outputs number)
     set(step ${bake_TARGET}_limn_${number})
     set(arguments_file "${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/${step}.txt")
@@ -105,5 +116,9 @@ function(limn_bake)
         COMMENT "Baking ${file_name}" VERBATIM)
     add_custom_target(${step} DEPENDS "${output}")
     add_dependencies(${bake_TARGET} ${step})
-    set_property(TARGET ${bake_TARGET} APPEND PROPERTY LIMN_ASSETS "${output}")
+    if(bake_C_ARRAY)
+        target_sources(${bake_TARGET} PRIVATE "${output}")
+    else()
+        set_property(TARGET ${bake_TARGET} APPEND PROPERTY LIMN_ASSETS "${output}")
+    endif()
 endfunction()

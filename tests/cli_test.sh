@@ -191,6 +191,16 @@ notes 'sail.obj: ignored: 1 creases .*line' bake tagged/sail.obj -o tagged.limn
 tagged 't vertexedit 16/24/3'
 notes "sail.obj:[0-9]*: unknown tag 'vertexedit' is ignored" bake tagged/sail.obj -o tagged.limn
 
+# C source holds the same bytes.
+works bake -q "$torus" -o torus.c --c-array torus
+expect "bytes as C" "$(sed -n 's/^[0-9].*/&/p' torus.c | tr , '\n' | grep .)" \
+    "$(od -An -v -tu1 -w1 torus.limn | tr -d ' ')"
+size=$(wc -c <torus.limn)
+grep -q "^const size_t torus_size = $size;" torus.c || fail "size as C"
+for name in 2 a-b while ''; do
+    refuses 2 "'$name' cannot be the name of an array" bake "$torus" -o new.c --c-array "$name"
+done
+
 # Files take the usual permissions, replace what was there, and go where links lead.
 (umask 027 && "$limn" bake -q "$torus" -o mode.limn)
 expect "permissions" "$(ls -l mode.limn | cut -c1-10)" "-rw-r-----"

@@ -146,6 +146,7 @@ function(check_builds folder)
     run("app with two meshes" "${folder}/app" "${folder}/packs/pair.limn")
     expect_output("app with two meshes" "tetrahedron: meshes 2, patches 4, vertices 60")
     run("app with a generated mesh" "${folder}/app" "${folder}/data.limn")
+    run("a mesh inside the program" "${folder}/embedded")
     run("headers" "${folder}/headers")
 
     stamp("${folder}/app.limn" app_before)
@@ -209,6 +210,7 @@ expect_mistake("there is no mesh .*absent.obj" "limn_bake(TARGET app SOURCES abs
 expect_mistake("app.limn is baked already" "limn_bake(TARGET app SOURCES square.off)")
 expect_mistake("unknown arguments: square.off" "limn_bake(square.off TARGET app SOURCES square.off)")
 expect_mistake("use OUTPUT" "limn_bake(TARGET app SOURCES square.off OUTPUT other.limn OPTIONS -o x.limn)")
+expect_mistake("use C_ARRAY" "limn_bake(TARGET app SOURCES square.off OUTPUT other.c OPTIONS --c-array x)")
 
 # ---- Limn as a part of the project
 
