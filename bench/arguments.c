@@ -2,6 +2,7 @@
 #include "arguments.h"
 
 #include <stdio.h>
+#include <string.h>
 
 int bench_read_options(int argc, char **argv, const char *help, const struct option *names,
                        bench_option_parser *parse, void *options) {
@@ -26,4 +27,16 @@ bool bench_parse_range(const char *text, uint32_t low, uint32_t high, uint32_t *
     if (!limni_parse_number(text, high, &number) || number < low) return false;
     *value = number;
     return true;
+}
+
+bool bench_parse_scheme(const char *text, limn_scheme *scheme) {
+    for (int s = LIMN_SCHEME_LOOP; s <= LIMN_SCHEME_CATMARK; s++) {
+        *scheme = (limn_scheme)s;
+        if (strcmp(text, bench_scheme_name(*scheme)) == 0) return true;
+    }
+    return false;
+}
+
+const char *bench_scheme_name(limn_scheme scheme) {
+    return scheme == LIMN_SCHEME_LOOP ? "loop" : "catmark";
 }

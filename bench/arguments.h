@@ -5,6 +5,8 @@
 
 #include "numbers.h"
 
+#include "limn/bake.h"
+
 #include <getopt.h>
 
 /// What a benchmark does with one of its options, other than --help: takes it, with its argument in
@@ -19,5 +21,9 @@ int bench_read_options(int argc, char **argv, const char *help, const struct opt
 
 /// A whole number from `low` to `high`; nothing is written otherwise.
 bool bench_parse_range(const char *text, uint32_t low, uint32_t high, uint32_t *value);
+
+/// Schemes are Loop's of triangles, "loop", or Catmull-Clark's, "catmark". False: neither.
+bool bench_parse_scheme(const char *text, limn_scheme *scheme);
+const char *bench_scheme_name(limn_scheme scheme);
 
 #endif

@@ -29,6 +29,9 @@ double bench_seconds(void);
 /// Seconds that this thread ran: for samples of a millisecond or so, which others may interrupt.
 double bench_thread_seconds(void);
 
+/// The next of a fixed sequence of random numbers below `bound`.
+uint32_t bench_random(uint64_t *state, uint32_t bound);
+
 /// The median; reorders the values.
 double bench_median(double *values, uint32_t count);
 

@@ -94,7 +94,7 @@ static void print_frame(dolly with[2], const options *o, uint32_t frame) {
 static bool run(const options *o, const char *path) {
     bench_mix mix;
     dolly with[2] = {0};
-    bool good = bench_mix_file(&mix, path, LIMN_ISOLATE_NEVER);
+    bool good = bench_mix_file(&mix, path, (bench_way){0});
     if (good) {
         good = create(&with[0], &mix.mesh) && create(&with[1], &mix.mesh);
         if (!good) fputs("limn-bench: out of memory\n", stderr);

@@ -20,17 +20,20 @@ bool drawn_mesh_create(drawn_mesh *drawn, const limn_mesh *mesh) {
     drawn->mesh = *mesh;
     index_rows(drawn);
     const uint32_t count =
-        limn_templates_write(mesh->domain, LIMN_TOPOLOGY_TRIANGLES, 2, NULL, drawn->templates);
+        limn_templates_write(mesh->domain, LIMN_TOPOLOGY_TRIANGLES, 2, NULL, NULL);
+    drawn->templates = malloc(limn_template_count(mesh->domain) * sizeof *drawn->templates);
     drawn->indices = malloc(count * sizeof *drawn->indices);
     drawn->finest = malloc((size_t)plan.vertex_count * sizeof *drawn->finest);
-    if (!drawn->indices || !drawn->finest) return false;
-    limn_templates_write(mesh->domain, LIMN_TOPOLOGY_TRIANGLES, 2, drawn->indices, NULL);
+    if (!drawn->templates || !drawn->indices || !drawn->finest) return false;
+    limn_templates_write(mesh->domain, LIMN_TOPOLOGY_TRIANGLES, 2, drawn->indices,
+                         drawn->templates);
     limn_evaluate(&plan, mesh->controls, 0, plan.patch_count,
                   &(limn_output){.vertices = drawn->finest});
     return true;
 }
 
 void drawn_mesh_destroy(drawn_mesh *drawn) {
+    free(drawn->templates);
     free(drawn->indices);
     free(drawn->finest);
 }

@@ -8,14 +8,14 @@
 
 #include "limn/limn.h"
 
-enum { DRAWN_TEMPLATE_MAX = 256, DRAWN_ROW_MAX = 153 };
+enum { DRAWN_ROW_MAX = (LIMN_GRID_SIZE + 1) * (LIMN_GRID_SIZE + 1) };
 
 /// A mesh, all its templates, and its vertices at the finest level. Control points do not move.
 typedef struct drawn_mesh {
     limn_mesh mesh;
     uint16_t *indices;
-    limn_template templates[DRAWN_TEMPLATE_MAX];
-    float (*finest)[3]; ///< [patch_count][row_counts[LIMN_LEVEL_MAX]]
+    limn_template *templates; ///< [limn_template_count()]
+    float (*finest)[3];       ///< [patch_count][row_counts[LIMN_LEVEL_MAX]]
     uint16_t row_at[LIMN_GRID_SIZE + 1][LIMN_GRID_SIZE + 1]; ///< the row at grid point i, j
 } drawn_mesh;
 

@@ -19,18 +19,19 @@
 static const char help[] =
     "usage: limn-bench isolation [OPTIONS] [MESH...]\n\n"
     "Bakes every MESH (.obj, .off) dense and isolated, and beside it a regular torus of about as\n"
-    "many faces, and the same torus with edges flipped at random (\"worst\"), and prints\n\n"
+    "many patches, and the same torus with edges turned at random (\"worst\"), and prints\n\n"
     "  bytes          of the tables of positions (with normals three times as many), of columns,\n"
     "                 of patches, and of the points of level 1, as `limn info` counts them; and "
     "of\n"
     "                 all MESHes isolated in one file\n"
-    "  ns per face    medians, by level 0 to 4, dense and isolated, tables warm and cold; and of\n"
+    "  ns per patch   medians, by level 0 to 4, dense and isolated, tables warm and cold; and of\n"
     "                 limn_mesh_refine(), which isolated meshes take once a frame\n"
     "  isolated/dense without limn_mesh_refine() and with it\n"
     "  % of regular   how fast the isolated mesh is at level 4 beside the isolated regular torus,\n"
     "                 without limn_mesh_refine() and with it\n\n"
     "The kernels are the best of this CPU, of both families. limn-bench kernels --help says what\n"
     "warm and cold mean, and where vertices go.\n\n"
+    "  --scheme S     loop: of triangles (default); catmark: Catmull-Clark, tori of quads\n"
     "  --rounds N     samples of each figure (default 9)\n"
     "  --quick        3 rounds of short samples\n"
     "  --csv FILE     writes all figures\n";
@@ -43,7 +44,7 @@ static const char *const way_names[WAY_COUNT] = {"dense", "isolated"};
 static const char *const family_names[FAMILY_COUNT] = {"reproducible", "fast"};
 static const char *const tables_names[TABLES_COUNT] = {"warm", "cold"};
 
-/// Seconds per face.
+/// Seconds per patch.
 typedef struct figure {
     double samples[ROUND_MAX];
     double median;
@@ -61,6 +62,7 @@ typedef struct subject {
 typedef struct session {
     uint32_t rounds;
     const char *csv;
+    limn_scheme scheme;
     bench_sampler sampler;
     const limn_kernels *kernels[FAMILY_COUNT];
     subject *subjects;
@@ -149,7 +151,7 @@ static void measure(session *s) {
 
 // ---- Printing
 
-/// Nanoseconds per face.
+/// Nanoseconds per patch.
 static double ns_of(const subject *one, int way, const line *which, uint32_t level) {
     return 1e9 * (*one->evaluating)[way][which->family][which->output][which->tables][level].median;
 }
@@ -162,23 +164,24 @@ static double tables_size(const limn_pack *pack) {
     return (double)limni_tables_size(pack) / 3; // all have normals
 }
 
-static void print_size(const char *name, uint32_t faces, const char *way, const limn_pack *pack) {
+static void print_size(const char *name, uint32_t patch_count, const char *way,
+                       const limn_pack *pack) {
     uint64_t patches = 0, points = 0;
     for (uint32_t m = 0; m < pack->mesh_count; m++) {
         const limn_mesh mesh = limn_pack_mesh(pack, m);
         patches += limni_patches_size(&mesh);
         points += limni_points_size(&mesh);
     }
-    printf("%-28s %7u %-8s %8u %7u %9.0f %9llu %10llu %10llu\n", name, faces, way,
+    printf("%-28s %7u %-8s %8u %7u %9.0f %9llu %10llu %10llu\n", name, patch_count, way,
            pack->class_count, pack->piece_count, tables_size(pack),
            (unsigned long long)limni_columns_size(pack), (unsigned long long)patches,
            (unsigned long long)points);
 }
 
 static bool print_sizes(session *s) {
-    printf("\n%-28s %7s %-8s %8s %7s %9s %9s %10s %10s\n", "bytes", "faces", "", "classes",
+    printf("\n%-28s %7s %-8s %8s %7s %9s %9s %10s %10s\n", "bytes", "patches", "", "classes",
            "pieces", "tables", "columns", "patches", "points");
-    uint32_t faces = 0;
+    uint32_t patch_count = 0;
     for (uint32_t i = 0; i < s->subject_count; i++) {
         const bench_mix *const mixes = s->subjects[i].mixes;
         for (int way = 0; way < WAY_COUNT; way++)
@@ -195,8 +198,8 @@ static bool print_sizes(session *s) {
         return false;
     }
     for (uint32_t m = 0; m < pack.mesh_count; m++)
-        faces += limn_pack_mesh(&pack, m).patch_count;
-    print_size("all in one file", faces, way_names[ISOLATED], &pack);
+        patch_count += limn_pack_mesh(&pack, m).patch_count;
+    print_size("all in one file", patch_count, way_names[ISOLATED], &pack);
     return true;
 }
 
@@ -228,7 +231,7 @@ static void print_line(session *s, const line *which, void *data) {
     printf("\n%s, %s %s, tables %s\n", bench_outputs[which->output].name,
            limn_kernels_name(s->kernels[which->family]), family_names[which->family],
            tables_names[which->tables]);
-    printf("%-24s %34s   %34s  %6s   %29s   %29s   %9s\n", "ns per face, levels 0 to 4", "dense",
+    printf("%-24s %34s   %34s  %6s   %29s   %29s   %9s\n", "ns per patch, levels 0 to 4", "dense",
            "isolated", "refine", "isolated/dense", "with refine", "% of reg.");
     for (uint32_t i = 0; i < s->subject_count; i++)
         print_subject(s, &s->subjects[i], which);
@@ -257,8 +260,8 @@ static void write_line(session *s, const line *which, void *file) {
 static void write_csv(session *s, FILE *file) {
     fprintf(file, "# ");
     bench_print_conditions(file);
-    fprintf(file, "mesh,faces,way,classes,pieces,position_table_bytes,column_bytes,patch_bytes,"
-                  "point_bytes,output,isa,family,tables,level,ns_per_face,refine_ns_per_face\n");
+    fprintf(file, "mesh,patches,way,classes,pieces,position_table_bytes,column_bytes,patch_bytes,"
+                  "point_bytes,output,isa,family,tables,level,ns_per_patch,refine_ns_per_patch\n");
     for_lines(s, write_line, file);
 }
 
@@ -282,12 +285,16 @@ static bool complete(session *s, uint32_t regular) {
     return true;
 }
 
-typedef bool make_torus(bench_mix *mix, uint32_t side, limn_isolate isolate);
+typedef bool make_torus(bench_mix *mix, uint32_t side, bench_way way);
+
+static bench_way way_of(const session *s, int way) {
+    return (bench_way){s->scheme, way == DENSE ? LIMN_ISOLATE_NEVER : LIMN_ISOLATE_ALWAYS};
+}
 
 static bool add_torus(session *s, make_torus *make, uint32_t side, uint32_t regular) {
     bench_mix *const mixes = s->subjects[s->subject_count].mixes;
-    if (make(&mixes[DENSE], side, LIMN_ISOLATE_NEVER) &&
-        make(&mixes[ISOLATED], side, LIMN_ISOLATE_ALWAYS))
+    if (make(&mixes[DENSE], side, way_of(s, DENSE)) &&
+        make(&mixes[ISOLATED], side, way_of(s, ISOLATED)))
         return complete(s, regular);
     s->subject_count++; // for destroy()
     return false;
@@ -295,10 +302,10 @@ static bool add_torus(session *s, make_torus *make, uint32_t side, uint32_t regu
 
 /// Both of a size, unless they are there; `regular`: which they are.
 static bool add_tori(session *s, uint32_t side, uint32_t *regular) {
+    const uint32_t faces = bench_mix_torus_faces(side, s->scheme);
     for (uint32_t i = 0; i < s->subject_count; i++) {
         *regular = i;
-        if (s->subjects[i].regular == i &&
-            s->subjects[i].mixes[DENSE].mesh.patch_count == 2 * side * side)
+        if (s->subjects[i].regular == i && s->subjects[i].mixes[DENSE].mesh.patch_count == faces)
             return true;
     }
     *regular = s->subject_count;
@@ -309,15 +316,16 @@ static bool add_tori(session *s, uint32_t side, uint32_t *regular) {
 static bool add_file(session *s, const char *path) {
     bench_mix mixes[WAY_COUNT];
     uint32_t regular = 0;
-    bool good = bench_mix_file(&mixes[DENSE], path, LIMN_ISOLATE_NEVER);
+    bool good = bench_mix_file(&mixes[DENSE], path, way_of(s, DENSE));
     mixes[ISOLATED] = (bench_mix){0};
     if (good && !mixes[DENSE].baker) {
         fprintf(stderr, "limn-bench: %s: a mesh is needed that is not yet baked\n", path);
         good = false;
     }
-    good = good && bench_mix_file(&mixes[ISOLATED], path, LIMN_ISOLATE_ALWAYS);
+    good = good && bench_mix_file(&mixes[ISOLATED], path, way_of(s, ISOLATED));
     if (good) {
-        const double side = sqrt(mixes[DENSE].mesh.patch_count / 2.0);
+        const double faces = bench_mix_torus_faces(1, s->scheme);
+        const double side = sqrt(mixes[DENSE].mesh.patch_count / faces);
         good =
             add_tori(s, side < TORUS_SIDE_MIN ? TORUS_SIDE_MIN : (uint32_t)lround(side), &regular);
     }
@@ -334,8 +342,10 @@ static bool set_up(session *s, char **paths, int path_count) {
     s->sampler.buffer = aligned_alloc(4096, s->sampler.buffer_size);
     if (!s->subjects || !s->sampler.buffer) return out_of_memory();
     if (path_count == 0) return add_tori(s, TORUS_SIDE, &regular);
-    s->together = limn_baker_create(&(limn_bake_desc){
-        .normals = LIMN_NORMALS_EXACT, .isolate = LIMN_ISOLATE_ALWAYS, .repair = LIMN_REPAIR_ALL});
+    s->together = limn_baker_create(&(limn_bake_desc){.scheme = s->scheme,
+                                                      .normals = LIMN_NORMALS_EXACT,
+                                                      .isolate = LIMN_ISOLATE_ALWAYS,
+                                                      .repair = LIMN_REPAIR_ALL});
     if (!s->together) return out_of_memory();
     bool good = true;
     for (int p = 0; p < path_count && good; p++)
@@ -371,6 +381,8 @@ static bool run(session *s, char **paths, int path_count, FILE *csv) {
 static bool parse_option(int option, void *parsed) {
     session *const s = parsed;
     switch (option) {
+    case 's':
+        return bench_parse_scheme(optarg, &s->scheme);
     case 'r':
         return bench_parse_range(optarg, 1, ROUND_MAX, &s->rounds);
     case 'q':
@@ -386,11 +398,10 @@ static bool parse_option(int option, void *parsed) {
 }
 
 int bench_isolation(int argc, char **argv) {
-    static const struct option names[] = {{"rounds", required_argument, NULL, 'r'},
-                                          {"quick", no_argument, NULL, 'q'},
-                                          {"csv", required_argument, NULL, 'c'},
-                                          {"help", no_argument, NULL, 'h'},
-                                          {0}};
+    static const struct option names[] = {
+        {"scheme", required_argument, NULL, 's'}, {"rounds", required_argument, NULL, 'r'},
+        {"quick", no_argument, NULL, 'q'},        {"csv", required_argument, NULL, 'c'},
+        {"help", no_argument, NULL, 'h'},         {0}};
     session s = {.rounds = 9, .sampler = {.buffer_size = BUFFER_SIZE, .seconds = 1e-3}};
     const int status = bench_read_options(argc, argv, help, names, parse_option, &s);
     if (status >= 0) return status;

@@ -275,10 +275,10 @@ static void shuffle(mix *m) {
 
 static bool add_mixes(session *s, char **paths, int path_count) {
     s->mixes = allocate((size_t)path_count + 2, sizeof *s->mixes);
-    bool good = bench_mix_regular(&s->mixes[s->mix_count++].base, TORUS_SIDE, LIMN_ISOLATE_NEVER);
-    good = good && bench_mix_worst(&s->mixes[s->mix_count++].base, TORUS_SIDE, LIMN_ISOLATE_NEVER);
+    bool good = bench_mix_regular(&s->mixes[s->mix_count++].base, TORUS_SIDE, (bench_way){0});
+    good = good && bench_mix_worst(&s->mixes[s->mix_count++].base, TORUS_SIDE, (bench_way){0});
     for (int p = 0; p < path_count && good; p++)
-        good = bench_mix_file(&s->mixes[s->mix_count++].base, paths[p], LIMN_ISOLATE_NEVER);
+        good = bench_mix_file(&s->mixes[s->mix_count++].base, paths[p], (bench_way){0});
     for (uint32_t m = 0; m < s->mix_count && good; m++)
         shuffle(&s->mixes[m]);
     return good;

@@ -18,18 +18,26 @@ typedef struct bench_mix {
     limni_blob_file file;    ///< if it was not
 } bench_mix;
 
-/// A torus of `side` by `side` control points, all of valence 6: one class.
-bool bench_mix_regular(bench_mix *mix, uint32_t side, limn_isolate isolate);
+/// How a mix is baked, with normals.
+typedef struct bench_way {
+    limn_scheme scheme; ///< LIMN_SCHEME_LOOP or LIMN_SCHEME_CATMARK
+    limn_isolate isolate;
+} bench_way;
 
-/// The same torus with edges flipped at random, valences 4 to 9: neighbours rarely share a class.
-bool bench_mix_worst(bench_mix *mix, uint32_t side, limn_isolate isolate);
+/// A torus of `side` by `side` control points, all regular: one class. Its faces are triangles, or
+/// quads for LIMN_SCHEME_CATMARK.
+bool bench_mix_regular(bench_mix *mix, uint32_t side, bench_way way);
 
-/// A mesh that is baked first, with normals, or the first one of a .limn file, as it was baked.
-bool bench_mix_file(bench_mix *mix, const char *path, limn_isolate isolate);
+/// The same torus with edges turned at random, valences 4 to 9, or 3 to 7 of quads: neighbours
+/// rarely share a class.
+bool bench_mix_worst(bench_mix *mix, uint32_t side, bench_way way);
+
+/// The faces of either.
+uint32_t bench_mix_torus_faces(uint32_t side, limn_scheme scheme);
+
+/// A mesh that is baked first, or the first one of a .limn file, as it was baked.
+bool bench_mix_file(bench_mix *mix, const char *path, bench_way way);
 
 void bench_mix_destroy(bench_mix *mix);
-
-/// The next of a fixed sequence of random numbers below `bound`.
-uint32_t bench_random(uint64_t *state, uint32_t bound);
 
 #endif

@@ -201,7 +201,7 @@ static void summarize(const peer_scene *scene, const peer_list *list, uint32_t r
         const peer *const limn = find_limn(list, what);
         results[p].what = *what;
         memcpy(results[p].mesh, scene->name, sizeof scene->name);
-        results[p].scheme = scene_scheme_name(scene->scheme);
+        results[p].scheme = bench_scheme_name(scene->scheme);
         results[p].level = scene->level;
         const double points = what->points == PEER_PATCH_POINTS
                                   ? (double)scene->patch_count * scene->row_count
@@ -228,7 +228,7 @@ static bool compare(peer_scene *scene, const peer_list *list, uint32_t rounds,
 
 static void print_scene(const peer_scene *scene, bool isolated) {
     printf("\n%s: %s, %u faces, %u patches, %u control points, level %u: %u vertices a patch%s\n",
-           scene->name, scene_scheme_name(scene->scheme), scene->face_count, scene->patch_count,
+           scene->name, bench_scheme_name(scene->scheme), scene->face_count, scene->patch_count,
            scene->control_count, scene->level, scene->row_count, isolated ? "; limn isolated" : "");
     report_print_head();
 }
@@ -261,20 +261,12 @@ static uint32_t count_processors(void) {
     return count < 1 ? 1 : count > 8 ? 8 : (uint32_t)count;
 }
 
-static bool parse_scheme(const char *text, peer_scheme *scheme) {
-    for (int s = PEER_LOOP; s <= PEER_CATMARK; s++) {
-        *scheme = (peer_scheme)s;
-        if (strcmp(text, scene_scheme_name(*scheme)) == 0) return true;
-    }
-    return false;
-}
-
 static bool parse_option(int option, void *parsed) {
     peers_options *const to = parsed;
     uint32_t number;
     switch (option) {
     case 's':
-        return parse_scheme(optarg, &to->scene.scheme);
+        return bench_parse_scheme(optarg, &to->scene.scheme);
     case 'i':
         if (!bench_parse_range(optarg, 0, 1, &number)) return false;
         to->scene.isolated = number == 1;

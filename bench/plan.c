@@ -315,8 +315,8 @@ static void remove_all(session *s) {
 /// `path` NULL: a torus.
 static bool bench_mesh(session *s, const char *path) {
     bench_mix mix;
-    const bool good = path ? bench_mix_file(&mix, path, LIMN_ISOLATE_NEVER)
-                           : bench_mix_regular(&mix, TORUS_SIDE, LIMN_ISOLATE_NEVER);
+    const bool good = path ? bench_mix_file(&mix, path, (bench_way){0})
+                           : bench_mix_regular(&mix, TORUS_SIDE, (bench_way){0});
     if (good) {
         if (s->options.fast) mix.mesh.kernels = limn_kernels_select(LIMN_ISA_ALL, LIMN_FAMILY_FAST);
         add_all(s, &mix);

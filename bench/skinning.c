@@ -178,8 +178,8 @@ static bool make_targets(character *c) {
 
 static bool create_character(character *c, const char *path, uint32_t isa) {
     *c = (character){0};
-    const bool opened = path ? bench_mix_file(&c->mix, path, LIMN_ISOLATE_NEVER)
-                             : bench_mix_regular(&c->mix, TORUS_SIDE, LIMN_ISOLATE_NEVER);
+    const bool opened = path ? bench_mix_file(&c->mix, path, (bench_way){0})
+                             : bench_mix_regular(&c->mix, TORUS_SIDE, (bench_way){0});
     if (!opened) return false;
     limn_mesh *const mesh = &c->mix.mesh;
     if (!mesh->normals) {

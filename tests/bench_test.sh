@@ -43,6 +43,13 @@ printf 'v 0 0 0\nv 1 0 0\nv 1 1.3 0\nv 0 1 0\nv 0 0 1\nv 1 0 1.2\nv 1 1 1\nv 0 1
 cp quads.obj corners.obj
 printf 'f 1 2 6 5\nf 2 3 7 6\n' >>corners.obj
 printf 'f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n' >>quads.obj
+expect "quads isolated" "$bench" isolation --scheme catmark --quick --rounds 1 --csv isolation.csv quads.obj >isolation.txt
+expect "their figures" [ "$(grep -c '^[a-z.]*,[0-9]*,[a-z]*,' isolation.csv)" = 240 ]
+expect "a regular torus of quads: one table of a piece" grep -q '^regular,64,isolated,1,1,' isolation.csv
+expect "quads baked" "$limn" bake -q --scheme catmark quads.obj -o quads.limn
+expect "quads from frame to frame" "$bench" dolly --frames 3 quads.limn >dolly.txt
+expect "a line for each step" [ "$(grep -c '^[0-9]' dolly.txt)" = 2 ]
+
 cp quads.obj mixed.obj
 printf 'f 5 6 7\nf 5 7 8\n' >>mixed.obj
 for isolate in 0 1; do

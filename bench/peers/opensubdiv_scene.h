@@ -14,7 +14,8 @@ inline limni_opensubdiv_mesh describe_scene(const peer_scene &scene) {
     mesh.face_sizes = scene.face_sizes;
     mesh.position_count = scene.control_count;
     mesh.face_count = scene.face_count;
-    mesh.scheme = scene.scheme == PEER_LOOP ? LIMNI_OPENSUBDIV_LOOP : LIMNI_OPENSUBDIV_CATMARK;
+    mesh.scheme =
+        scene.scheme == LIMN_SCHEME_LOOP ? LIMNI_OPENSUBDIV_LOOP : LIMNI_OPENSUBDIV_CATMARK;
     mesh.divided = scene.divided;
     mesh.level = scene.level;
     return mesh;

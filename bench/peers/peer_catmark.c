@@ -334,7 +334,7 @@ static void destroy(void *self_state) {
 }
 
 bool peers_add_catmark(peer_list *list, const peer_scene *scene) {
-    if (scene->scheme != PEER_CATMARK) return true;
+    if (scene->scheme != LIMN_SCHEME_CATMARK) return true;
     state *const self = bench_allocate(1, sizeof *self);
     self->scene = scene;
     const double start = bench_seconds();

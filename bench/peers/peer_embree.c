@@ -270,7 +270,7 @@ static bool has_corners(const peer_scene *where) {
 }
 
 bool peers_add_embree(peer_list *list, const peer_scene *scene) {
-    if (scene->scheme != PEER_CATMARK) return true;
+    if (scene->scheme != LIMN_SCHEME_CATMARK) return true;
     if (has_corners(scene)) {
         fprintf(stderr,
                 "limn-bench: %s: without Embree, which rounds corners of the boundary otherwise\n",

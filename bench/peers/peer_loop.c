@@ -251,7 +251,7 @@ static void destroy(void *self_state) {
 }
 
 bool peers_add_loop(peer_list *list, const peer_scene *scene) {
-    if (scene->scheme != PEER_LOOP) return true;
+    if (scene->scheme != LIMN_SCHEME_LOOP) return true;
     state *const self = bench_allocate(1, sizeof *self);
     self->scene = scene;
     const double start = bench_seconds();

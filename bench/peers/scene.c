@@ -5,8 +5,6 @@
 #include "../bench.h"
 #include "allocate.h"
 
-#include "limn/bake.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -92,7 +90,8 @@ static bool read_polygons(peer_scene *scene, const char *path) {
 }
 
 static bool read_mesh(peer_scene *scene, const char *path) {
-    if (scene->scheme == PEER_LOOP ? !read_triangles(scene, path) : !read_polygons(scene, path))
+    if (scene->scheme == LIMN_SCHEME_LOOP ? !read_triangles(scene, path)
+                                          : !read_polygons(scene, path))
         return false;
     topology mesh = scene_topology(scene);
     const bool manifold = mesh.manifold_edges;
@@ -126,7 +125,7 @@ static bool bake(const peer_scene *scene, const limn_bake_desc *desc, scene_bake
 
 static bool bake_both(peer_scene *scene, bool isolated) {
     limn_bake_desc desc = {
-        .scheme = scene->scheme == PEER_LOOP ? LIMN_SCHEME_LOOP : LIMN_SCHEME_CATMARK,
+        .scheme = scene->scheme,
         .isolate = isolated ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER,
     };
     if (!bake(scene, &desc, &scene->baked)) return false;
@@ -216,8 +215,8 @@ static void number_unique(peer_scene *scene, uint32_t vertex_count) {
 static void find_vertices(peer_scene *scene) {
     topology mesh = scene_topology(scene);
     for (uint32_t level = 0; level < scene_refinement_count(scene); level++) {
-        topology fine = scene->scheme == PEER_LOOP ? topology_refine_triangles(&mesh)
-                                                   : topology_refine_quads(&mesh);
+        topology fine = scene->scheme == LIMN_SCHEME_LOOP ? topology_refine_triangles(&mesh)
+                                                          : topology_refine_quads(&mesh);
         topology_destroy(&mesh);
         mesh = fine;
     }
@@ -233,7 +232,7 @@ uint32_t scene_row(const peer_scene *scene, uint32_t row, uint32_t rotation) {
     int i = scene->domain->rows[row].i, j = scene->domain->rows[row].j;
     for (; rotation > 0; rotation--) {
         const int before = i;
-        i = scene->scheme == PEER_LOOP ? LIMN_GRID_SIZE - i - j : LIMN_GRID_SIZE - j;
+        i = scene->scheme == LIMN_SCHEME_LOOP ? LIMN_GRID_SIZE - i - j : LIMN_GRID_SIZE - j;
         j = before;
     }
     return scene->row_at[i][j];
@@ -273,16 +272,12 @@ void scene_set_bones(peer_scene *scene, bool equal) {
     }
 }
 
-const char *scene_scheme_name(peer_scheme scheme) {
-    return scheme == PEER_LOOP ? "loop" : "catmark";
-}
-
 bool scene_create(peer_scene *scene, const char *path, const scene_desc *desc) {
     memset(scene, 0, sizeof *scene);
     scene->scheme = desc->scheme;
     scene->level = desc->level;
     scene->domain =
-        limn_domain_get(desc->scheme == PEER_LOOP ? LIMN_DOMAIN_TRIANGLE : LIMN_DOMAIN_QUAD);
+        limn_domain_get(desc->scheme == LIMN_SCHEME_LOOP ? LIMN_DOMAIN_TRIANGLE : LIMN_DOMAIN_QUAD);
     scene->row_count = scene->domain->row_counts[desc->level];
     for (uint16_t r = 0; r < scene->row_count; r++)
         scene->row_at[scene->domain->rows[r].i][scene->domain->rows[r].j] = r;

@@ -6,6 +6,7 @@
 #include "team.h"
 #include "topology.h"
 
+#include "limn/bake.h"
 #include "limn/limn.h"
 
 #include <stdbool.h>
@@ -29,17 +30,9 @@ typedef struct scene_baked {
     struct limn_baker *baker; ///< owns the blob
 } scene_baked;
 
-typedef enum peer_scheme {
-    PEER_LOOP,   ///< of triangles: patches are faces, of the triangle domain
-    PEER_CATMARK ///< Catmull-Clark: patches of the quad domain, see peer_scene
-} peer_scheme;
-
-/// "loop" or "catmark".
-const char *scene_scheme_name(peer_scheme scheme);
-
 /// How meshes are read and subdivided, and by how many threads.
 typedef struct scene_desc {
-    peer_scheme scheme;
+    limn_scheme scheme; ///< Loop's or Catmull-Clark's
     uint32_t level;
     uint32_t thread_count;
     bool isolated; ///< Limn with limn_mesh_refine() and small tables
@@ -50,7 +43,7 @@ typedef struct scene_desc {
 /// corners, as topology_refine_quads() does.
 typedef struct peer_scene {
     char name[64];
-    peer_scheme scheme;
+    limn_scheme scheme;
     uint32_t level;
     uint32_t row_count;                                      ///< of a patch at that level
     uint16_t row_at[LIMN_GRID_SIZE + 1][LIMN_GRID_SIZE + 1]; ///< the row at grid point i, j
