@@ -342,10 +342,7 @@ static bool set_up(session *s, char **paths, int path_count) {
     s->sampler.buffer = aligned_alloc(4096, s->sampler.buffer_size);
     if (!s->subjects || !s->sampler.buffer) return out_of_memory();
     if (path_count == 0) return add_tori(s, TORUS_SIDE, &regular);
-    s->together = limn_baker_create(&(limn_bake_desc){.scheme = s->scheme,
-                                                      .normals = LIMN_NORMALS_EXACT,
-                                                      .isolate = LIMN_ISOLATE_ALWAYS,
-                                                      .repair = LIMN_REPAIR_ALL});
+    s->together = bench_baker(way_of(s, ISOLATED));
     if (!s->together) return out_of_memory();
     bool good = true;
     for (int p = 0; p < path_count && good; p++)

@@ -47,6 +47,15 @@ static bool bake_mix(bench_mix *mix, const char *name, limn_bake_status added) {
     return false;
 }
 
+limn_baker *bench_baker(bench_way way) {
+    return limn_baker_create(&(limn_bake_desc){.scheme = way.scheme,
+                                               .normals = LIMN_NORMALS_EXACT,
+                                               .isolate = way.isolate,
+                                               .repair = LIMN_REPAIR_ALL,
+                                               .non_manifold = LIMN_NON_MANIFOLD_SPLIT,
+                                               .note = bench_note});
+}
+
 static bool bake_torus(bench_mix *mix, const char *name, const bench_torus *t, bench_way way) {
     const limn_bake_mesh mesh = {.name = name,
                                  .positions = t->positions,
@@ -54,8 +63,7 @@ static bool bake_torus(bench_mix *mix, const char *name, const bench_torus *t, b
                                  .face_count = t->face_count,
                                  .face_sizes = t->face_sizes,
                                  .face_indices = t->corners};
-    mix->baker = limn_baker_create(&(limn_bake_desc){
-        .scheme = way.scheme, .normals = LIMN_NORMALS_EXACT, .isolate = way.isolate});
+    mix->baker = bench_baker(way);
     return bake_mix(mix, name,
                     mix->baker ? limn_baker_add_mesh(mix->baker, &mesh) : LIMN_BAKE_MEMORY);
 }
@@ -101,12 +109,7 @@ bool bench_mix_file(bench_mix *mix, const char *path, bench_way way) {
         fprintf(stderr, "limn-bench: %s\n", error);
         return false;
     }
-    mix->baker = limn_baker_create(&(limn_bake_desc){.scheme = way.scheme,
-                                                     .normals = LIMN_NORMALS_EXACT,
-                                                     .isolate = way.isolate,
-                                                     .repair = LIMN_REPAIR_ALL,
-                                                     .non_manifold = LIMN_NON_MANIFOLD_SPLIT,
-                                                     .note = bench_note});
+    mix->baker = bench_baker(way);
     return bake_mix(mix, name,
                     mix->baker ? limn_baker_add_file(mix->baker, path) : LIMN_BAKE_MEMORY);
 }

@@ -24,6 +24,9 @@ typedef struct bench_way {
     limn_isolate isolate;
 } bench_way;
 
+/// A baker that mends what it can. NULL: no memory.
+limn_baker *bench_baker(bench_way way);
+
 /// A torus of `side` by `side` control points, all regular: one class. Its faces are triangles, or
 /// quads for LIMN_SCHEME_CATMARK.
 bool bench_mix_regular(bench_mix *mix, uint32_t side, bench_way way);
