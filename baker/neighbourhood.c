@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 #include "neighbourhood.h"
 
-#include <stdlib.h>
+#include "hash.h"
+
 #include <string.h>
 
-/// Numbers of the mesh, ascending, and what they become.
+/// Numbers of the mesh, and what they become: a hash table.
 typedef struct renaming {
-    uint64_t *pairs; ///< [count] number << 32 | new number
-    uint32_t count;
+    uint64_t *pairs; ///< [size] number << 32 | new number, or FREE
+    uint32_t size, count;
 } renaming;
+#define FREE UINT64_MAX
 
 typedef struct cutter {
     limni_context *context;
@@ -18,63 +20,62 @@ typedef struct cutter {
     limni_neighbourhood *made;
 } cutter;
 
-static int compare_pairs(const void *a, const void *b) {
-    const uint64_t left = *(const uint64_t *)a, right = *(const uint64_t *)b;
-    return (left > right) - (left < right);
-}
-
-static uint32_t rename_of(const renaming *names, uint32_t number) {
-    uint32_t low = 0, high = names->count;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        const uint32_t other = (uint32_t)(names->pairs[middle] >> 32);
-        if (other == number) return (uint32_t)names->pairs[middle];
-        if (other < number)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return LIMNI_NONE;
-}
-
-static limn_bake_status name_slots(cutter *c) {
-    renaming *const slots = &c->slots;
-    slots->count = c->from->control_count;
-    slots->pairs = limni_allocate(c->context, slots->count, sizeof *slots->pairs);
-    if (!slots->pairs) return LIMN_BAKE_MEMORY;
-    for (uint32_t slot = 0; slot < slots->count; slot++)
-        slots->pairs[slot] = (uint64_t)c->from->controls[slot] << 32 | slot;
-    qsort(slots->pairs, slots->count, sizeof *slots->pairs, compare_pairs);
+static limn_bake_status begin_renaming(limni_context *context, size_t most, renaming *names) {
+    names->size = limni_hash_size((uint32_t)most);
+    names->pairs = limni_allocate(context, names->size, sizeof *names->pairs);
+    if (!names->pairs) return LIMN_BAKE_MEMORY;
+    memset(names->pairs, 0xff, names->size * sizeof *names->pairs);
     return LIMN_BAKE_OK;
 }
 
-/// The faces around all inner vertices: the face itself is the first, others follow in the order of
-/// the mesh.
+/// Where a number is, or where it would go.
+static uint64_t *find_name(const renaming *names, uint32_t number) {
+    uint32_t at = (uint32_t)limni_hash_mix(0, number) & (names->size - 1);
+    while (names->pairs[at] != FREE && names->pairs[at] >> 32 != number)
+        at = (at + 1) & (names->size - 1);
+    return &names->pairs[at];
+}
+
+/// Gives a number the next name. False: it has one.
+static bool give_name(renaming *names, uint32_t number) {
+    uint64_t *const place = find_name(names, number);
+    if (*place != FREE) return false;
+    *place = (uint64_t)number << 32 | names->count++;
+    return true;
+}
+
+static uint32_t rename_of(const renaming *names, uint32_t number) {
+    return (uint32_t)*find_name(names, number); // of FREE, LIMNI_NONE
+}
+
+static limn_bake_status name_slots(cutter *c) {
+    LIMNI_TRY(begin_renaming(c->context, c->from->control_count, &c->slots));
+    for (uint32_t slot = 0; slot < c->from->control_count; slot++)
+        give_name(&c->slots, c->from->controls[slot]);
+    return LIMN_BAKE_OK;
+}
+
+static void name_face(cutter *c, uint32_t face) {
+    if (give_name(&c->faces, face)) c->made->faces[c->faces.count - 1] = face;
+}
+
+/// The face itself, and those around all inner vertices.
 static limn_bake_status name_faces(cutter *c) {
     const limni_mesh *const mesh = c->from->mesh;
-    renaming *const faces = &c->faces;
-    const uint32_t own = mesh->face_of[c->from->half_edge];
-    size_t room = 0;
+    size_t room = 1;
     for (uint32_t slot = 0; slot < c->from->inner_count; slot++)
         room += mesh->valences[c->from->controls[slot]];
-    faces->pairs = limni_allocate(c->context, room, sizeof *faces->pairs);
-    if (!faces->pairs) return LIMN_BAKE_MEMORY;
-    size_t count = 0;
+    LIMNI_TRY(begin_renaming(c->context, room, &c->faces));
+    c->made->faces = limni_allocate(c->context, room, sizeof *c->made->faces);
+    if (!c->made->faces) return LIMN_BAKE_MEMORY;
+    name_face(c, mesh->face_of[c->from->half_edge]);
     for (uint32_t slot = 0; slot < c->from->inner_count; slot++) {
         const uint32_t first = mesh->first[c->from->controls[slot]];
         uint32_t h = first;
         do {
-            faces->pairs[count++] = (uint64_t)mesh->face_of[h] << 32;
+            name_face(c, mesh->face_of[h]);
             h = limni_half_edge_turn(mesh, h);
         } while (h != LIMNI_NONE && h != first);
-    }
-    qsort(faces->pairs, count, sizeof *faces->pairs, compare_pairs);
-    uint32_t next = 1;
-    for (size_t f = 0; f < count; f++) {
-        if (f > 0 && faces->pairs[f] == (faces->pairs[faces->count - 1] & ~(uint64_t)UINT32_MAX))
-            continue;
-        const uint32_t name = faces->pairs[f] >> 32 == own ? 0 : next++;
-        faces->pairs[faces->count++] = faces->pairs[f] | name;
     }
     return LIMN_BAKE_OK;
 }
@@ -83,25 +84,18 @@ static limn_bake_status name_faces(cutter *c) {
 static limn_bake_status copy_faces(cutter *c) {
     const limni_mesh *const mesh = c->from->mesh;
     limni_mesh *const made = &c->made->mesh;
-    made->offsets =
-        limni_allocate_zeroed(c->context, (size_t)made->face_count + 1, sizeof *made->offsets);
+    made->offsets = limni_allocate(c->context, (size_t)made->face_count + 1, sizeof *made->offsets);
     if (!made->offsets) return LIMN_BAKE_MEMORY;
-    for (uint32_t f = 0; f < c->faces.count; f++)
-        made->offsets[1 + (uint32_t)c->faces.pairs[f]] =
-            limni_face_size(mesh, (uint32_t)(c->faces.pairs[f] >> 32));
+    made->offsets[0] = 0;
     for (uint32_t f = 0; f < made->face_count; f++)
-        made->offsets[f + 1] += made->offsets[f];
+        made->offsets[f + 1] = made->offsets[f] + limni_face_size(mesh, c->made->faces[f]);
     LIMNI_TRY(limni_index_half_edges(c->context, made));
     made->corners = limni_allocate(c->context, made->half_edge_count, sizeof *made->corners);
     c->half_edges = limni_allocate(c->context, made->half_edge_count, sizeof *c->half_edges);
-    c->made->faces = limni_allocate(c->context, made->face_count, sizeof *c->made->faces);
-    if (!made->corners || !c->half_edges || !c->made->faces) return LIMN_BAKE_MEMORY;
-    for (uint32_t f = 0; f < c->faces.count; f++) {
-        const uint32_t face = (uint32_t)(c->faces.pairs[f] >> 32);
-        const uint32_t name = (uint32_t)c->faces.pairs[f];
-        c->made->faces[name] = face;
-        uint32_t h = name == 0 ? c->from->half_edge : mesh->offsets[face];
-        for (uint32_t own = made->offsets[name]; own < made->offsets[name + 1]; own++) {
+    if (!made->corners || !c->half_edges) return LIMN_BAKE_MEMORY;
+    for (uint32_t f = 0; f < made->face_count; f++) {
+        uint32_t h = f == 0 ? c->from->half_edge : mesh->offsets[c->made->faces[f]];
+        for (uint32_t own = made->offsets[f]; own < made->offsets[f + 1]; own++) {
             c->half_edges[own] = h;
             made->corners[own] = rename_of(&c->slots, mesh->corners[h]);
             h = limni_half_edge_next(mesh, h);
