@@ -246,36 +246,43 @@ static LIMNI_NOINLINE void sum_pairs(const patch *p, const limni_layout *layout,
 
 // ---- Long rows
 
-/// One vector of rows on one axis, for classes with many control points. A plain sum of hundreds of
-/// terms loses several digits, so long rows are summed with Kahan's compensation; short rows as
-/// everywhere else, because a patch with few control points may share them.
-static inline lanes sum_long(const patch *p, size_t row, int axis) {
-    lanes plain = lanes_zero(), sum = lanes_zero(), lost = lanes_zero(), count = lanes_zero();
+/// One vector of rows, for classes with many control points. A plain sum of hundreds of terms loses
+/// several digits, so long rows are summed with Kahan's compensation; short rows as everywhere else,
+/// because a patch with few control points may share them. The axes are independent, and go
+/// together: each would only wait for itself.
+static LIMNI_INLINE void sum_long(const patch *p, size_t row, lanes sums[3]) {
+    lanes plain[3], sum[3], lost[3], count = lanes_zero();
+    for (int axis = 0; axis < 3; axis++)
+        plain[axis] = sum[axis] = lost[axis] = lanes_zero();
     for (const term *k = p->all.begin; k != p->all.end; k++) {
         const lanes coefficient = lanes_load(p->table + k->column + row);
-        const lanes point = lanes_splat(k->point[axis]);
-        plain = lanes_multiply_add(coefficient, point, plain);
+        count = lanes_add(count, lanes_select_zero(coefficient, lanes_zero(), lanes_splat(1.0f)));
+        LIMNI_UNROLL
+        for (int axis = 0; axis < 3; axis++) {
+            const lanes point = lanes_splat(k->point[axis]);
+            plain[axis] = lanes_multiply_add(coefficient, point, plain[axis]);
 
-        const lanes product = lanes_subtract(lanes_multiply(coefficient, point), lost);
-        const lanes next = lanes_add(sum, product);
-        const lanes one = lanes_select_zero(coefficient, lanes_zero(), lanes_splat(1.0f));
-        const lanes error = lanes_subtract(lanes_subtract(next, sum), product);
-        // A term with coefficient 0 must change nothing, not even what was lost before.
-        lost = lanes_select_zero(coefficient, lost, error);
-        sum = lanes_select_zero(coefficient, sum, next);
-        count = lanes_add(count, one);
+            const lanes product = lanes_subtract(lanes_multiply(coefficient, point), lost[axis]);
+            const lanes next = lanes_add(sum[axis], product);
+            const lanes error = lanes_subtract(lanes_subtract(next, sum[axis]), product);
+            // A term with coefficient 0 must change nothing, not even what was lost before.
+            lost[axis] = lanes_select_zero(coefficient, lost[axis], error);
+            sum[axis] = lanes_select_zero(coefficient, sum[axis], next);
+        }
     }
-    return lanes_select_greater(count, lanes_splat(LIMNI_PLAIN_TERMS), sum, plain);
+    for (int axis = 0; axis < 3; axis++)
+        sums[axis] =
+            lanes_select_greater(count, lanes_splat(LIMNI_PLAIN_TERMS), sum[axis], plain[axis]);
 }
 
 static LIMNI_NOINLINE void sum_long_rows(const patch *p, const limni_segment *segment,
                                          vectors *out) {
-    for (int axis = 0; axis < 3; axis++) {
-        for (size_t at = 0; at < segment->count; at += LANES_WIDTH) {
-            const lanes sum = sum_long(p, segment->table_row + at, axis);
+    for (size_t at = 0; at < segment->count; at += LANES_WIDTH) {
+        lanes sums[3];
+        sum_long(p, segment->table_row + at, sums);
+        for (int axis = 0; axis < 3; axis++)
             lanes_store(&out->axes[axis][segment->row + at],
-                        lanes_add(sum, lanes_splat(p->origin[axis])));
-        }
+                        lanes_add(sums[axis], lanes_splat(p->origin[axis])));
     }
 }
 
