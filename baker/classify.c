@@ -3,22 +3,53 @@
 
 #include <string.h>
 
-enum {
-    /// limni_check_valences() refuses faces whose rings have more entries in all; at level 1, a face at
-    /// a corner has the corner's ring and those of new vertices, where those of the base face may have
-    /// less.
-    RING_MAX = LIMNI_LOCAL_BASE_MAX + 24,
-    SLOT_MAX = RING_MAX + LIMN_CORNER_MAX,
-    KEY_MAX = 3 * LIMN_CORNER_MAX + 6 * RING_MAX + 2 * SLOT_MAX
-};
+/// The most that a local base takes.
+typedef struct extent {
+    size_t edges; ///< of the corners
+    size_t rings; ///< words of limni_local_base: here of all vertices next to each corner
+    size_t slots;
+} extent;
 
-static limn_bake_status allocate_base(limni_context *context, limni_local_base *base) {
-    base->controls = limni_allocate(context, SLOT_MAX, sizeof *base->controls);
-    base->twins = limni_allocate(context, SLOT_MAX, sizeof *base->twins);
-    base->key = limni_allocate(context, KEY_MAX, sizeof *base->key);
-    base->room = limni_allocate(context, 4 * (size_t)RING_MAX, sizeof *base->room);
-    base->spokes = limni_allocate(context, SLOT_MAX, sizeof *base->spokes);
-    base->rings = limni_allocate(context, 3 * (size_t)RING_MAX, sizeof *base->rings);
+/// What the stars of the vertices next to a control point take.
+static size_t sum_second_rings(const limni_mesh *mesh, uint32_t control) {
+    size_t sum = 0;
+    uint32_t h = mesh->first[control];
+    do {
+        sum += 2 + (size_t)mesh->valences[limni_half_edge_end(mesh, h)];
+        const uint32_t incoming = limni_half_edge_previous(mesh, h);
+        h = mesh->pairs[incoming];
+        if (h == LIMNI_NONE) sum += 2 + (size_t)mesh->valences[mesh->corners[incoming]];
+    } while (h != LIMNI_NONE && h != mesh->first[control]);
+    return sum;
+}
+
+static extent find_extent(const limni_mesh *mesh, uint32_t reach) {
+    extent most = {0};
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        size_t edges = 0, rings = 0;
+        if (mesh->holes[face]) continue;
+        for (uint32_t h = mesh->offsets[face]; h < mesh->offsets[face + 1]; h++) {
+            edges += mesh->valences[mesh->corners[h]];
+            if (reach == 2) rings += sum_second_rings(mesh, mesh->corners[h]);
+        }
+        most.edges = edges > most.edges ? edges : most.edges;
+        most.rings = rings > most.rings ? rings : most.rings;
+    }
+    const size_t slots = LIMN_CORNER_MAX + 2 * most.edges + most.rings;
+    most.slots = slots < mesh->control_count ? slots : mesh->control_count;
+    return most;
+}
+
+static limn_bake_status allocate_base(limni_context *context, const extent *most,
+                                      limni_local_base *base) {
+    const size_t key_size = 3 * LIMN_CORNER_MAX + 6 * most->edges + most->rings + 2 * most->slots;
+    base->controls = limni_allocate(context, most->slots, sizeof *base->controls);
+    base->twins = limni_allocate(context, most->slots, sizeof *base->twins);
+    base->key = limni_allocate(context, key_size, sizeof *base->key);
+    base->room = limni_allocate(context, 4 * most->edges, sizeof *base->room);
+    base->spokes = limni_allocate(context, most->slots, sizeof *base->spokes);
+    base->rings = limni_allocate(context, most->rings, sizeof *base->rings);
+    base->edges_max = most->edges;
     return base->controls && base->twins && base->key && base->room && base->spokes && base->rings
                ? LIMN_BAKE_OK
                : LIMN_BAKE_MEMORY;
@@ -28,16 +59,18 @@ limn_bake_status limni_classifier_begin(limni_context *context, limni_classifier
                                         const limni_mesh *mesh,
                                         const limni_mesh_sharpness *sharpness,
                                         const limni_rules *rules) {
+    const extent most = find_extent(mesh, limni_scheme_of(rules, mesh->domain)->reach);
     *classifier = (limni_classifier){
         .mesh = mesh,
         .sharpness = sharpness,
         .rules = rules,
         .slots = limni_allocate(context, mesh->control_count, sizeof(uint32_t)),
         .marks = limni_allocate_zeroed(context, mesh->control_count, sizeof(uint32_t)),
+        .slots_max = most.slots,
     };
     if (!classifier->slots || !classifier->marks) return LIMN_BAKE_MEMORY;
-    LIMNI_TRY(allocate_base(context, &classifier->bases[0]));
-    return allocate_base(context, &classifier->bases[1]);
+    LIMNI_TRY(allocate_base(context, &most, &classifier->bases[0]));
+    return allocate_base(context, &most, &classifier->bases[1]);
 }
 
 void limni_classifier_end(limni_context *context, limni_classifier *classifier) {
@@ -151,13 +184,13 @@ static bool has_creases(const limni_rules *rules, const limni_local_base *base) 
 /// Walks all rings.
 static void walk_rings(limni_classifier *classifier, limni_local_base *base) {
     const uint32_t begin = base->mesh->offsets[base->face];
-    uint32_t first = 0;
+    size_t first = 0;
     for (uint32_t corner = 0; corner < base->corner_count; corner++) {
         limni_star *const star = &base->corners[corner];
         *star = (limni_star){.ring = base->room + first,
-                             .edges = base->room + RING_MAX + first,
-                             .beyond = base->room + 2 * RING_MAX + first,
-                             .diagonals = base->room + 3 * RING_MAX + first};
+                             .edges = base->room + base->edges_max + first,
+                             .beyond = base->room + 2 * base->edges_max + first,
+                             .diagonals = base->room + 3 * base->edges_max + first};
         walk_ring(classifier, base, begin + (corner + base->rotation) % base->corner_count, star);
         first += star->count;
     }
@@ -268,50 +301,6 @@ static bool is_ruled_out(const limni_mesh *mesh, uint32_t face, uint32_t rotatio
     return is_larger(valences, count, rotation);
 }
 
-/// What the corners of a face have in their rings, and with a reach of 2 their neighbours. *widest:
-/// the corner with the most.
-static uint64_t sum_rings(const limni_mesh *mesh, uint32_t reach, uint32_t face, uint32_t *widest) {
-    uint64_t sum = 0;
-    *widest = mesh->corners[mesh->offsets[face]];
-    for (uint32_t h = mesh->offsets[face]; h < mesh->offsets[face + 1]; h++) {
-        const uint32_t control = mesh->corners[h];
-        sum += mesh->valences[control];
-        if (mesh->valences[control] > mesh->valences[*widest]) *widest = control;
-        uint32_t turning = mesh->first[control];
-        do {
-            if (reach == 1) break;
-            sum += 2 + mesh->valences[limni_half_edge_end(mesh, turning)];
-            const uint32_t incoming = limni_half_edge_previous(mesh, turning);
-            turning = mesh->pairs[incoming];
-            if (turning == LIMNI_NONE) sum += 2 + mesh->valences[mesh->corners[incoming]];
-        } while (turning != LIMNI_NONE && turning != mesh->first[control]);
-    }
-    return sum;
-}
-
-static limn_bake_status check_size(limni_context *context, const limni_mesh *mesh, uint32_t reach,
-                                   uint32_t face) {
-    const uint32_t most = LIMNI_LOCAL_BASE_MAX / (limni_face_size(mesh, face) == 3 ? 1 : 2);
-    uint32_t widest;
-    if (sum_rings(mesh, reach, face, &widest) <= most) return LIMN_BAKE_OK;
-    limni_place control_text, face_text;
-    return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                      "%s: %s has valence %u: the corners of %s%s have more than %u edges in all",
-                      mesh->path ? mesh->path : mesh->name,
-                      limni_control_place(mesh, widest, control_text), mesh->valences[widest],
-                      limni_face_place(mesh, face, face_text),
-                      reach == 2 ? " and their neighbours" : "", most);
-}
-
-limn_bake_status limni_check_valences(limni_context *context, const limni_mesh *mesh,
-                                      const limni_rules *rules) {
-    const uint32_t reach = limni_scheme_of(rules, mesh->domain)->reach;
-    for (uint32_t face = 0; face < mesh->face_count; face++) {
-        if (!mesh->holes[face]) LIMNI_TRY(check_size(context, mesh, reach, face));
-    }
-    return LIMN_BAKE_OK;
-}
-
 const limni_local_base *limni_classify(limni_classifier *classifier, uint32_t face) {
     const uint32_t corner_count = limni_face_size(classifier->mesh, face);
     int best = -1;
@@ -342,5 +331,47 @@ limn_bake_status limni_local_neighbourhood(limni_context *context, const limni_l
                                    .with_edges = base->corners[0].edges};
     LIMNI_TRY(limni_neighbourhood_begin(context, &cutting, neighbourhood));
     neighbourhood->twins = base->twin_count ? base->twins : NULL;
+    return LIMN_BAKE_OK;
+}
+
+// ---- Limits
+
+/// Its corner with the most edges, and how many all have.
+static uint64_t sum_edges(const limni_mesh *mesh, uint32_t face, uint32_t *widest) {
+    uint64_t sum = 0;
+    *widest = mesh->corners[mesh->offsets[face]];
+    for (uint32_t h = mesh->offsets[face]; h < mesh->offsets[face + 1]; h++) {
+        const uint32_t control = mesh->corners[h];
+        sum += mesh->valences[control];
+        if (mesh->valences[control] > mesh->valences[*widest]) *widest = control;
+    }
+    return sum;
+}
+
+/// The points that a patch depends on are no more than the edges of its corners, and of a quad
+/// twice as many; with a reach of 2, those are counted.
+static limn_bake_status check_size(limni_context *context, limni_classifier *classifier,
+                                   uint32_t face) {
+    const limni_mesh *const mesh = classifier->mesh;
+    const bool far = limni_scheme_of(classifier->rules, mesh->domain)->reach == 2;
+    const uint32_t most = LIMN_FORMAT_CONTROLS_MAX / (limni_face_size(mesh, face) == 3 ? 1 : 2);
+    uint32_t widest;
+    const uint64_t edges = sum_edges(mesh, face, &widest);
+    if ((far ? limni_local_base_at(classifier, face, 0)->control_count : edges) <= most)
+        return LIMN_BAKE_OK;
+    limni_place control_text, face_text;
+    return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                      "%s: %s has valence %u: %s %s %s more than %u %s",
+                      mesh->path ? mesh->path : mesh->name,
+                      limni_control_place(mesh, widest, control_text), mesh->valences[widest],
+                      far ? "around" : "the corners of", limni_face_place(mesh, face, face_text),
+                      far ? "there are" : "have", most, far ? "control points" : "edges in all");
+}
+
+limn_bake_status limni_check_valences(limni_context *context, limni_classifier *classifier) {
+    const limni_mesh *const mesh = classifier->mesh;
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        if (!mesh->holes[face]) LIMNI_TRY(check_size(context, classifier, face));
+    }
     return LIMN_BAKE_OK;
 }

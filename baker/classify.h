@@ -17,9 +17,6 @@
 #include "mesh_sharpness.h"
 #include "neighbourhood.h"
 
-/// The corners of a face may have this many edges in all, or half as many if it is a quad.
-#define LIMNI_LOCAL_BASE_MAX LIMN_FORMAT_CONTROLS_MAX
-
 /// The surroundings of one face in one mesh.
 typedef struct limni_local_base {
     const limni_mesh *mesh;
@@ -35,10 +32,11 @@ typedef struct limni_local_base {
     uint32_t *twins; ///< [control_count] the first slot that was the same control point before the
                      ///< mesh was split
     uint32_t twin_count; ///< slots that are not the first
-    uint32_t *room;      ///< what the stars point into
-    uint32_t *spokes;    ///< [inner_count] a half-edge from each slot to one before it
-    uint32_t *rings;     ///< [rings_size] what the key says of the stars of inner slots behind the
-                         ///< corners
+    uint32_t *room;      ///< [4][edges_max] what the stars point into
+    size_t edges_max;
+    uint32_t *spokes; ///< [inner_count] a half-edge from each slot to one before it
+    uint32_t *rings;  ///< [rings_size] what the key says of the stars of inner slots behind the
+                      ///< corners
     uint32_t rings_size;
     uint32_t *key; ///< [key_size]
     uint32_t key_size;
@@ -49,9 +47,10 @@ typedef struct limni_classifier {
     const limni_mesh *mesh;
     const limni_rules *rules;
     const limni_mesh_sharpness *sharpness;
-    uint32_t *slots; ///< [control_count] the slot of a control point, valid where marks match
-    uint32_t *marks; ///< [control_count]
-    uint32_t mark;   ///< of the current local base
+    uint32_t *slots;  ///< [control_count] the slot of a control point, valid where marks match
+    uint32_t *marks;  ///< [control_count]
+    uint32_t mark;    ///< of the current local base
+    size_t slots_max; ///< of a local base
     limni_local_base bases[2]; ///< the best rotation so far and the one being tried
 } limni_classifier;
 
@@ -61,10 +60,8 @@ limn_bake_status limni_classifier_begin(limni_context *context, limni_classifier
                                         const limni_rules *rules);
 void limni_classifier_end(limni_context *context, limni_classifier *classifier);
 
-/// Refuses faces whose corners have more than LIMNI_LOCAL_BASE_MAX edges in all: to be called before
-/// anything else here.
-limn_bake_status limni_check_valences(limni_context *context, const limni_mesh *mesh,
-                                      const limni_rules *rules);
+/// Refuses faces that depend on more than LIMN_FORMAT_CONTROLS_MAX points, or may do so.
+limn_bake_status limni_check_valences(limni_context *context, limni_classifier *classifier);
 
 /// The local base of a face in its canonical rotation. Valid until the next call.
 const limni_local_base *limni_classify(limni_classifier *classifier, uint32_t face);

@@ -14,7 +14,8 @@ limn_bake_status limni_isolation_begin(limni_context *context, const limni_mesh 
     LIMNI_TRY(limni_classifier_begin(context, &isolation->classifier, refined,
                                      &isolation->refined.sharpness, rules));
     LIMNI_TRY(limni_assignment_begin(context, refined->face_count, &isolation->assigned));
-    const size_t most = LIMNI_LOCAL_BASE_MAX;
+    const size_t most = LIMN_CORNER_MAX + LIMN_FORMAT_PIECE_COUNT * isolation->classifier.slots_max;
+    isolation->points_max = most;
     isolation->slots = limni_allocate(context, refined->control_count, sizeof(uint32_t));
     isolation->marks = limni_allocate_zeroed(context, refined->control_count, sizeof(uint32_t));
     isolation->points = limni_allocate(context, most, sizeof(uint32_t));
@@ -81,7 +82,7 @@ static uint32_t slot_of(limni_isolation *isolation, uint32_t point, uint32_t *co
         isolation->marks[point] = isolation->mark;
         isolation->slots[point] = *count;
         for (uint32_t p = 0; p < LIMN_FORMAT_PIECE_COUNT; p++)
-            isolation->columns[p * LIMNI_LOCAL_BASE_MAX + *count] = LIMN_FORMAT_NO_COLUMN;
+            isolation->columns[p * isolation->points_max + *count] = LIMN_FORMAT_NO_COLUMN;
         isolation->points[(*count)++] = point;
     }
     return isolation->slots[point];
@@ -95,7 +96,7 @@ static void list_piece(limni_isolation *isolation, const limni_classes *pieces, 
     for (uint32_t s = 0; s < base->control_count; s++) {
         if (key->slots[s] == LIMNI_SLOT_UNUSED) continue;
         const uint32_t slot = slot_of(isolation, base->controls[s], count);
-        isolation->columns[piece * LIMNI_LOCAL_BASE_MAX + slot] = key->slots[s];
+        isolation->columns[piece * isolation->points_max + slot] = key->slots[s];
     }
 }
 
@@ -138,7 +139,7 @@ static limni_class describe_class(const limni_isolation *isolation, const limni_
         class.parts[p] = (uint16_t)pieces->keys[key].class_index;
         const float negative = pieces->items[class.parts[p]].negative;
         class.negative = negative > class.negative ? negative : class.negative;
-        memcpy(columns, isolation->columns + p * LIMNI_LOCAL_BASE_MAX, count * sizeof *columns);
+        memcpy(columns, isolation->columns + p * isolation->points_max, count * sizeof *columns);
     }
     return class;
 }
@@ -152,6 +153,14 @@ limn_bake_status limni_isolation_classify(limni_context *context, limni_isolatio
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
                           "the file has more than %u tables of pieces", LIMN_FORMAT_PIECES_MAX);
     const uint32_t count = limni_isolation_list(isolation, pieces, face, rotation);
+    if (count > LIMN_FORMAT_CONTROLS_MAX) {
+        limni_place place;
+        return limni_fail(
+            context, LIMN_BAKE_BAD_INPUT,
+            "%s: around %s there are more than %u points of the level that isolates it",
+            isolation->mesh->name, limni_face_place(isolation->mesh, face, place),
+            LIMN_FORMAT_CONTROLS_MAX);
+    }
     const limni_class class = describe_class(isolation, rules, pieces, face, rotation, count);
     return limni_classes_find_parts(context, classes, &class, class_index);
 }

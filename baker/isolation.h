@@ -19,8 +19,9 @@ typedef struct limni_isolation {
     limni_assignment assigned;   ///< of its faces
     uint32_t *slots, *marks;     ///< [points] see limni_classifier
     uint32_t mark;
-    uint32_t *points;  ///< [LIMNI_LOCAL_BASE_MAX] of the last patch, by slot
-    uint16_t *columns; ///< [LIMN_FORMAT_PIECE_COUNT][LIMNI_LOCAL_BASE_MAX]
+    size_t points_max; ///< of a patch
+    uint32_t *points;  ///< [points_max] of the last patch, by slot
+    uint16_t *columns; ///< [LIMN_FORMAT_PIECE_COUNT][points_max]
     uint16_t *parts;   ///< the same, packed behind the pieces: see limni_class
 } limni_isolation;
 

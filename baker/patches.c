@@ -29,8 +29,8 @@ static uint32_t slot_size_of(const limni_class *class) {
 
 static limn_bake_status begin_arrangement(limni_context *context, arrangement *a) {
     const limni_mesh *const mesh = a->mesh;
-    LIMNI_TRY(limni_check_valences(context, mesh, a->rules));
     LIMNI_TRY(limni_classifier_begin(context, &a->classifier, mesh, a->base->sharpness, a->rules));
+    LIMNI_TRY(limni_check_valences(context, &a->classifier));
     LIMNI_TRY(limni_assignment_begin(context, mesh->face_count, &a->assigned));
     a->class_indices = limni_allocate(context, mesh->face_count, sizeof *a->class_indices);
     if (!a->class_indices) return LIMN_BAKE_MEMORY;
@@ -194,7 +194,7 @@ static limn_bake_status list_controls(limni_context *context, arrangement *a,
                                       limni_patches *patches) {
     patches->indices = limni_allocate(context, patches->record.index_count, sizeof(uint32_t));
     patches->slots = limni_allocate_zeroed(context, patches->slots_size, 1);
-    uint64_t *const pairs = limni_allocate(context, LIMNI_LOCAL_BASE_MAX, sizeof *pairs);
+    uint64_t *const pairs = limni_allocate(context, LIMN_FORMAT_CONTROLS_MAX, sizeof *pairs);
     if (!patches->indices || !patches->slots || !pairs) return LIMN_BAKE_MEMORY;
     for (uint32_t r = 0; r < patches->record.run_count; r++) {
         const limn_file_run *const run = &patches->runs[r];

@@ -250,6 +250,21 @@ printf "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n" | bad range.off '6: '
 printf "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n" | bad winding.off \
     'face 0 (line 7) and face 1 (line 8) both run from vertex 0 (line 3) to vertex 1 (line 4)'
 
+# bipyramid COUNT: its tips have that many neighbours, which are next to each other and to both tips.
+bipyramid() {
+    awk -v n="$1" 'BEGIN {
+        print "v 0 0 1\nv 0 0 -1"
+        for (k = 0; k < n; k++) print "v", cos(6.2831853 * k / n), sin(6.2831853 * k / n), 0
+        for (k = 0; k < n; k++) print "f 1", k + 3, (k + 1) % n + 3 "\nf 2", (k + 1) % n + 3, k + 3
+    }'
+}
+bipyramid 200 >points.obj
+works bake points.obj -q -o points.limn --scheme butterfly # 202 points, whose edges are counted 2200 times
+bipyramid 2047 >points.obj
+refuses 1 'points.obj: vertex 1 (line 1) has valence 2047: around face 1 (line 2050) there are more than 2048 control points' \
+    bake points.obj -o new.limn --scheme butterfly
+refuses 1 'has valence 2047: the corners of face 1 (line 2050) have more than 2048 edges in all' bake points.obj -o new.limn
+
 refuses 1 'missing.obj: cannot be read: No such file' bake missing.obj -o new.limn
 refuses 1 'folder' bake far -o new.limn
 refuses 1 'torus.limn: unknown kind' bake torus.limn -o new.limn
