@@ -5,6 +5,7 @@
 #include "choose_isolation.h"
 #include "edge_errors.h"
 #include "output_file.h"
+#include "scheme.h"
 #include "write.h"
 
 #include <math.h>
@@ -73,9 +74,12 @@ static limni_rules rules_for(const limni_rules *options, const limni_mesh *mesh)
     if (rules.creasing == LIMN_CREASING_DEFAULT) rules.creasing = LIMN_CREASING_UNIFORM;
     if (rules.scheme == LIMN_SCHEME_BUTTERFLY && rules.isolate == LIMN_ISOLATE_AUTO)
         rules.isolate = LIMN_ISOLATE_NEVER; // would divide the mesh, which is for the user to say
-    if (rules.scheme == LIMN_SCHEME_NONE) { // evenly divided, by these rules alone
+    if (rules.scheme == LIMN_SCHEME_NONE)   // evenly divided, by these rules alone
         rules.creases = LIMN_CREASES_OPENSUBDIV;
+    if (!limni_scheme_has_creases(rules.scheme)) {
         rules.creasing = LIMN_CREASING_UNIFORM;
+        if (rules.boundary == LIMN_BOUNDARY_EDGE_AND_CORNER)
+            rules.boundary = LIMN_BOUNDARY_EDGE_ONLY;
     }
     return rules;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "command.h"
 #include "output_file.h"
+#include "scheme.h"
 #include "source.h"
 #include "write_c_array.h"
 
@@ -29,10 +30,9 @@ static const char help[] =
     "points\n"
     "      --weights NAME    vertex weights: loop (default) or warren\n"
     "      --boundary NAME   edge-only: boundaries are smooth curves; edge-and-corner: boundary\n"
-    "                        vertices of a single face stay in place; none: faces at a boundary "
-    "are\n"
-    "                        left out. Default: what the mesh asks for (t interpolateboundary in\n"
-    "                        OBJ), otherwise edge-only\n"
+    "                        vertices of a single face stay in place (loop and catmark); none:\n"
+    "                        faces at a boundary are left out. Default: what the mesh asks for\n"
+    "                        (t interpolateboundary in OBJ), otherwise edge-only\n"
     "      --creases NAME    the rules for sharp edges, sharp vertices and boundaries: "
     "opensubdiv\n"
     "                        (default), or lomont, also for files in Lomont's format\n"
@@ -214,6 +214,24 @@ static int parse_option(int option, arguments *given) {
     }
 }
 
+/// Refuses options that do nothing with the scheme.
+static int check_scheme(const limn_bake_desc *desc) {
+    const bool loop = desc->scheme == LIMN_SCHEME_LOOP;
+    const bool creased = limni_scheme_has_creases(desc->scheme);
+    if (desc->weights != LIMN_WEIGHTS_LOOP && !loop)
+        return limni_usage_error("bake", "--weights are those of --scheme loop");
+    if (desc->tension != 0 && desc->scheme != LIMN_SCHEME_BUTTERFLY)
+        return limni_usage_error("bake", "--tension is that of --scheme butterfly");
+    if (desc->creases == LIMN_CREASES_LOMONT && !loop)
+        return limni_usage_error("bake", "--creases lomont goes with --scheme loop");
+    if (desc->creasing != LIMN_CREASING_DEFAULT && !creased)
+        return limni_usage_error("bake", "--creasing goes with --scheme loop or catmark");
+    if (desc->boundary == LIMN_BOUNDARY_EDGE_AND_CORNER && !creased)
+        return limni_usage_error("bake",
+                                 "--boundary edge-and-corner goes with --scheme loop or catmark");
+    return LIMNI_EXIT_OK;
+}
+
 static int parse(int argc, char **argv, arguments *given) {
     for (int option; (option = getopt_long(argc, argv, "o:qh", options, NULL)) != -1;) {
         const int status = parse_option(option, given);
@@ -222,15 +240,7 @@ static int parse(int argc, char **argv, arguments *given) {
     if (optind == argc) return limni_usage_error("bake", "there is no input");
     if (!given->output || !given->output[0])
         return limni_usage_error("bake", "there is no output: -o OUT.limn");
-    const limn_bake_desc *const desc = &given->desc;
-    if (desc->weights != LIMN_WEIGHTS_LOOP && desc->scheme != LIMN_SCHEME_LOOP)
-        return limni_usage_error("bake", "--weights are those of --scheme loop");
-    if (desc->tension != 0 && desc->scheme != LIMN_SCHEME_BUTTERFLY)
-        return limni_usage_error("bake", "--tension is that of --scheme butterfly");
-    if (desc->creases == LIMN_CREASES_LOMONT &&
-        (desc->scheme == LIMN_SCHEME_CATMARK || desc->scheme == LIMN_SCHEME_BUTTERFLY))
-        return limni_usage_error("bake", "--creases lomont goes with --scheme loop");
-    return LIMNI_EXIT_OK;
+    return check_scheme(&given->desc);
 }
 
 /// A mesh's name in the place of the output is a slip that would cost the mesh.

@@ -45,6 +45,11 @@ typedef struct limni_scheme {
 
 extern const limni_scheme limni_scheme_loop, limni_scheme_catmark, limni_scheme_butterfly;
 
+/// Whether a scheme has rules for sharpness and for corners of the boundary.
+static inline bool limni_scheme_has_creases(limn_scheme scheme) {
+    return scheme == LIMN_SCHEME_LOOP || scheme == LIMN_SCHEME_CATMARK;
+}
+
 /// The masks by some rules, for faces of a domain.
 const limni_scheme *limni_scheme_of(const limni_rules *rules, limn_domain_kind domain);
 

@@ -8,6 +8,7 @@
 
 #include "../runtime/checksum.h"
 #include "limn/limn.h"
+#include "scheme.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -242,7 +243,8 @@ static void describe(const limni_rules *rules, const limni_patches *meshes, uint
                                                [LIMN_SCHEME_CATMARK] = "catmark",
                                                [LIMN_SCHEME_BUTTERFLY] = "butterfly",
                                                [LIMN_SCHEME_NONE] = "none"};
-    const char *const creasing = creasing_name(meshes, mesh_count);
+    const char *const creasing =
+        limni_scheme_has_creases(rules->scheme) ? creasing_name(meshes, mesh_count) : NULL;
     const char *const normals = rules->normals == LIMN_NORMALS_EXACT ? "exact" : "none";
     char creases[64] = "";
     if (rules->creases == LIMN_CREASES_LOMONT)
@@ -251,13 +253,14 @@ static void describe(const limni_rules *rules, const limni_patches *meshes, uint
         snprintf(creases, sizeof creases, " creases=opensubdiv creasing=%s", creasing);
     char isolate[96];
     describe_isolation(rules, meshes, mesh_count, isolate, sizeof isolate);
-    char tension[32] = "";
+    char own[32] = ""; // what only this scheme has
     if (rules->scheme == LIMN_SCHEME_BUTTERFLY)
-        snprintf(tension, sizeof tension, " tension=%.9g",
+        snprintf(own, sizeof own, " tension=%.9g",
                  (double)rules->tension / (double)LIMNI_FIXED_ONE);
-    snprintf(text, size, "scheme=%s%s weights=%s boundary=%s%s normals=%s%s",
-             scheme_names[rules->scheme], tension,
-             rules->weights == LIMN_WEIGHTS_WARREN ? "warren" : "loop",
+    else if (rules->scheme == LIMN_SCHEME_LOOP)
+        snprintf(own, sizeof own, " weights=%s",
+                 rules->weights == LIMN_WEIGHTS_WARREN ? "warren" : "loop");
+    snprintf(text, size, "scheme=%s%s boundary=%s%s normals=%s%s", scheme_names[rules->scheme], own,
              boundary_name(meshes, mesh_count), creases, normals, isolate);
 }
 

@@ -150,6 +150,16 @@ works bake "$sail" -o warren.limn --weights warren
 works bake "$sail" -o corner.limn --boundary edge-and-corner
 cmp -s sail.limn warren.limn && fail "--weights does nothing"
 cmp -s sail.limn corner.limn && fail "--boundary does nothing"
+works bake "$sail" -o butterfly.limn --scheme butterfly
+works bake "$sail" -o tension.limn --scheme butterfly --tension=-0.0625
+cmp -s butterfly.limn tension.limn && fail "--tension does nothing"
+works info tension.limn
+says stdout '^baked with scheme=butterfly tension=-0.0625 boundary=edge-only normals=none$'
+works bake "$sail" -o tension.limn --scheme butterfly --tension 0
+cmp butterfly.limn tension.limn || fail "the tension is not 0 by default"
+works bake "$sail" -o flat.limn --scheme none
+works info flat.limn
+says stdout '^baked with scheme=none boundary=edge-only normals=none$'
 notes 'cube.off: triangulated 3 quads and 3 larger polygons: 7 faces became 16' bake "$cube" -o cube.limn
 works bake -q "$cube" -o cube.limn
 works bake -q "$torus" "$sail" "$cube" "$torus" -o several.limn
@@ -163,6 +173,11 @@ works bake tagged/sail.obj -o tagged.limn
 cmp tagged.limn corner.limn || fail "t interpolateboundary does nothing"
 works bake tagged/sail.obj -o tagged.limn --boundary edge-only
 cmp tagged.limn sail.limn || fail "--boundary does not prevail"
+works bake tagged/sail.obj -o tagged.limn --scheme butterfly
+cmp tagged.limn butterfly.limn || fail "t interpolateboundary changes the butterfly"
+tagged 't crease 2/1/0 26 34 2.5'
+notes 'sail.obj: sharp edges and vertices are smooth' bake tagged/sail.obj -o tagged.limn --scheme butterfly
+cmp tagged.limn butterfly.limn || fail "t crease changes the butterfly"
 tagged 't interpolateboundary 1/0/0 0'
 works bake tagged/sail.obj -o tagged.limn
 works bake "$sail" -o none.limn --boundary none
@@ -282,6 +297,23 @@ refuses 2 'see limn bake --help' bake "$torus" -o
 refuses 2 'see limn bake --help' bake "$torus" -o new.limn --frob
 refuses 2 'see limn bake --help' bake "$torus" -o new.limn --quiet=3
 refuses 2 "no weights 'Loop'" bake "$torus" -o new.limn --weights Loop
+refuses 2 "no scheme 'sqrt3'" bake "$torus" -o new.limn --scheme sqrt3
+for scheme in catmark butterfly none; do
+    refuses 2 '--weights are those of --scheme loop' bake "$torus" -o new.limn --scheme $scheme --weights warren
+    refuses 2 '--creases lomont goes with --scheme loop' bake "$torus" -o new.limn --scheme $scheme --creases lomont
+done
+for scheme in butterfly none; do
+    for creasing in uniform chaikin; do
+        refuses 2 '--creasing goes with' bake "$torus" -o new.limn --creasing $creasing --scheme $scheme
+    done
+    refuses 2 'edge-and-corner goes with' bake "$torus" -o new.limn --boundary edge-and-corner --scheme $scheme
+done
+for scheme in loop catmark none; do
+    refuses 2 '--tension is that of --scheme butterfly' bake "$torus" -o new.limn --tension 0.1 --scheme $scheme
+done
+for tension in 0.26 -0.2500001 nan 1/16 '' ' '; do
+    refuses 2 "'$tension' is not a tension between" bake "$torus" -o new.limn --scheme butterfly --tension "$tension"
+done
 refuses 2 "no boundary rule ''" bake "$torus" -o new.limn --boundary ''
 for steps in '' , weld, ,weld welt 'weld drop' weld,,drop WELD; do
     refuses 2 'cannot repair' bake "$torus" -o new.limn "--repair=$steps"
