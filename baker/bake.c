@@ -23,11 +23,6 @@ struct limn_baker {
     size_t blob_size;
 };
 
-/// A number below 1, which a float has with fewer bits.
-static limni_fixed limni_fixed_from(float value) {
-    return (limni_fixed)((double)value * (double)LIMNI_FIXED_ONE);
-}
-
 limn_baker *limn_baker_create(const limn_bake_desc *desc) {
     limn_baker *const baker = calloc(1, sizeof *baker);
     if (!baker) return NULL;

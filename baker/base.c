@@ -32,11 +32,10 @@ static void note_division(limni_context *context, const limni_mesh *source,
                    "first level of subdivision",
                    name, others, source->face_count, made->face_count);
     else
-        limni_note(
-            context,
-            "%s: divided: isolation takes two levels of the butterfly, so patches are the %u "
-            "faces of the first",
-            name, made->face_count);
+        limni_note(context,
+                   "%s: divided: isolation takes two levels of this scheme, so patches are the %u "
+                   "faces of the first",
+                   name, made->face_count);
 }
 
 static limn_bake_status divide(limni_context *context, const limni_rules *rules, limni_base *base) {
@@ -54,7 +53,7 @@ static limn_bake_status divide(limni_context *context, const limni_rules *rules,
     limni_place_points(&base->stencils, points, count, made->control_count);
     memcpy(made->controls, points + count, made->control_count * sizeof *points);
     limni_release(context, points);
-    if (rules->scheme != LIMN_SCHEME_NONE) return LIMN_BAKE_OK;
+    if (!limni_is_flat(rules)) return LIMN_BAKE_OK;
     // Edges that are new inside a face are edges of faces now.
     limni_mesh_sharpness_end(context, &base->refined.sharpness);
     return limni_mesh_sharpness_begin(context, made, rules, &base->refined.sharpness);
@@ -62,7 +61,7 @@ static limn_bake_status divide(limni_context *context, const limni_rules *rules,
 
 limn_bake_status limni_base_begin(limni_context *context, const limni_mesh *source,
                                   const limni_rules *rules, limni_base *base) {
-    // Two levels apart, extraordinary vertices are out of each other's reach.
+    // Two levels apart, extraordinary vertices are out of each other's reach, if that is 2.
     const bool far = limni_scheme_of(rules, source->domain)->reach == 2;
     const bool isolated = rules->isolate == LIMN_ISOLATE_ALWAYS;
     *base =

@@ -1,29 +1,43 @@
 /* SPDX-License-Identifier: MIT */
 #include "choose_isolation.h"
 
+#include "sizes.h"
+
 #include <string.h>
 
 /// Half of what a core of a console has as its second cache. Larger tables compete with the points
 /// and vertices of a frame; smaller ones stay there, and patches with one table are quicker.
 #define TABLES_MAX ((uint64_t)256 << 10)
 
-static uint64_t size_of_tables(const limni_classes *classes) {
-    uint64_t size = 0;
-    for (uint32_t c = 0; c < classes->count; c++) {
-        const limni_class *const class = &classes->items[c];
-        size += class->parts ? limni_class_parts_size(class) : limni_class_table_size(class);
-    }
-    return size;
-}
-
-static uint64_t size_of_patches(const limni_patches *patches) {
+/// What the file would take.
+static limn_bake_status measure(limni_context *context, const limni_classes *classes,
+                                const limni_classes *pieces, const limni_patches *patches,
+                                limni_footprint *footprint) {
     const limn_file_mesh *const record = &patches->record;
-    const uint64_t points = record->point_count - record->control_count;
-    uint64_t size = record->index_count * sizeof *patches->indices + patches->slots_size;
-    if (points)
-        size += points * sizeof *patches->controls + (1 + points) * sizeof(uint32_t) +
-                patches->stencils.offsets[points] * sizeof(limn_file_term);
-    return size;
+    limn_file_class *const class_records =
+        limni_allocate(context, classes->count, sizeof *class_records);
+    limn_file_piece *const piece_records =
+        limni_allocate(context, pieces->count, sizeof *piece_records);
+    if (!class_records || !piece_records) return LIMN_BAKE_MEMORY;
+    for (uint32_t c = 0; c < classes->count; c++)
+        class_records[c] = limni_class_record(&classes->items[c]);
+    for (uint32_t p = 0; p < pieces->count; p++)
+        piece_records[p] = limni_piece_record(&pieces->items[p]);
+    const limn_pack pack = {.classes = class_records,
+                            .class_count = classes->count,
+                            .pieces = piece_records,
+                            .piece_count = pieces->count};
+    const limn_mesh mesh = {.domain = limn_domain_get((limn_domain_kind)record->domain),
+                            .control_count = record->control_count,
+                            .point_count = record->point_count,
+                            .patch_count = record->patch_count,
+                            .run_count = record->run_count,
+                            .runs = patches->runs,
+                            .classes = class_records,
+                            .stencils = patches->stencils.offsets};
+    footprint->tables = limni_tables_size(&pack) + limni_columns_size(&pack);
+    footprint->total = footprint->tables + limni_patches_size(&mesh) + limni_points_size(&mesh);
+    return LIMN_BAKE_OK;
 }
 
 static limn_bake_status try_bake(limni_context *context, const limni_base *base, limni_rules rules,
@@ -32,9 +46,7 @@ static limn_bake_status try_bake(limni_context *context, const limni_base *base,
     limni_patches patches;
     rules.isolate = isolate;
     LIMNI_TRY(limni_patches_build(context, base, &rules, &classes, &pieces, &patches));
-    footprint->tables = size_of_tables(&classes) + size_of_tables(&pieces);
-    footprint->total = footprint->tables + size_of_patches(&patches);
-    return LIMN_BAKE_OK;
+    return measure(context, &classes, &pieces, &patches, footprint);
 }
 
 limn_bake_status limni_choose_isolation(limni_context *context, const limni_base *base,

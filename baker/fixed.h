@@ -54,6 +54,11 @@ typedef struct limni_fixed_unit {
 } limni_fixed_unit;
 limni_fixed_unit limni_fixed_turn(uint32_t j, uint32_t n);
 
+/// A number below 8; exact from 2^-37 on.
+static inline limni_fixed limni_fixed_from(float value) {
+    return (limni_fixed)((double)value * (double)LIMNI_FIXED_ONE);
+}
+
 /// The nearest float; exact halves to even. Every host converts integers to floats alike.
 static inline float limni_fixed_to_float(limni_fixed a) {
     return (float)a * 0x1p-60f;

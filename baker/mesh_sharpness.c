@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "mesh_sharpness.h"
 
+#include "scheme.h"
+
 static bool any_above_zero(const float *values, size_t count) {
     bool any = false;
     for (size_t v = 0; values && v < count; v++)
@@ -61,21 +63,20 @@ void limni_mesh_open_boundary(limni_mesh *mesh) {
     }
 }
 
-/// Without a scheme everything is sharp for ever: the masks of corners and of sharp edges, and
-/// within a face those of a regular mesh, leave triangles flat and evenly divided.
-static bool is_flat(const limni_rules *rules) {
+bool limni_is_flat(const limni_rules *rules) {
     return rules->scheme == LIMN_SCHEME_NONE;
 }
 
-/// The butterfly has no rules for what is sharp.
+/// Sharp things are smooth.
 static bool is_ignored(const limni_rules *rules) {
-    return rules->scheme == LIMN_SCHEME_BUTTERFLY;
+    return !limni_scheme_has_creases(rules->scheme) && !limni_is_flat(rules);
 }
 
 /// Whether an edge is sharp, by its tag or to Lomont's rules as a boundary.
 static bool has_sharp_edges(const limni_mesh *mesh, const limni_rules *rules) {
     if (is_ignored(rules)) return false;
-    return is_flat(rules) || (rules->creases == LIMN_CREASES_LOMONT && limni_has_boundary(mesh)) ||
+    return limni_is_flat(rules) ||
+           (rules->creases == LIMN_CREASES_LOMONT && limni_has_boundary(mesh)) ||
            any_above_zero(mesh->edge_sharpness, mesh->half_edge_count);
 }
 
@@ -85,7 +86,7 @@ static limn_bake_status convert_edges(limni_context *context, const limni_mesh *
     sharpness->edges = limni_allocate(context, count, sizeof *sharpness->edges);
     if (!sharpness->edges) return LIMN_BAKE_MEMORY;
     for (uint32_t h = 0; h < count; h++) {
-        const bool forever = mesh->pairs[h] == LIMNI_NONE || is_flat(rules);
+        const bool forever = mesh->pairs[h] == LIMNI_NONE || limni_is_flat(rules);
         sharpness->edges[h] = forever ? LIMNI_SHARPNESS_INFINITE
                                       : limni_sharpness_from_float(mesh->edge_sharpness[h]);
     }
@@ -147,7 +148,7 @@ limn_bake_status limni_mesh_sharpness_begin(limni_context *context, const limni_
     for (uint32_t c = 0; c < mesh->control_count; c++) {
         const bool tagged = mesh->vertex_sharpness && !is_ignored(rules);
         const float tag = tagged ? mesh->vertex_sharpness[c] : 0;
-        sharpness->vertices[c] = is_flat(rules) || (sharpen && is_boundary_corner(mesh, c))
+        sharpness->vertices[c] = limni_is_flat(rules) || (sharpen && is_boundary_corner(mesh, c))
                                      ? LIMNI_SHARPNESS_INFINITE
                                      : limni_sharpness_from_float(tag);
     }

@@ -49,4 +49,8 @@ static inline bool limni_is_crease(const limni_mesh_sharpness *sharpness, const 
 void limni_mesh_star(const limni_mesh *mesh, const limni_mesh_sharpness *sharpness, uint32_t h,
                      limni_star *star);
 
+/// Whether everything is sharp for ever: the masks of corners and of sharp edges, and within a face
+/// those of a regular mesh, leave triangles flat and evenly divided.
+bool limni_is_flat(const limni_rules *rules);
+
 #endif

@@ -23,10 +23,6 @@ static bool is_isolated(const arrangement *a) {
     return a->rules->isolate == LIMN_ISOLATE_ALWAYS;
 }
 
-static uint32_t slot_size_of(const limni_class *class) {
-    return class->control_count <= LIMN_FORMAT_NARROW_SLOTS ? 1 : 2;
-}
-
 static limn_bake_status begin_arrangement(limni_context *context, arrangement *a) {
     const limni_mesh *const mesh = a->mesh;
     LIMNI_TRY(limni_classifier_begin(context, &a->classifier, mesh, a->base->sharpness, a->rules));
@@ -79,7 +75,8 @@ static void fill_runs(const limni_classes *classes, const uint32_t *counts,
     limn_file_run *run = patches->runs;
     for (uint32_t c = 0; c < classes->count; c++) {
         if (counts[c] == 0) continue;
-        const uint32_t slot_size = slot_size_of(&classes->items[c]);
+        const limn_file_class record = limni_class_record(&classes->items[c]);
+        const uint32_t slot_size = limn_file_slot_size(&record);
         slot += slot % slot_size;
         *run++ = (limn_file_run){
             .class_index = c,
@@ -198,8 +195,8 @@ static limn_bake_status list_controls(limni_context *context, arrangement *a,
     if (!patches->indices || !patches->slots || !pairs) return LIMN_BAKE_MEMORY;
     for (uint32_t r = 0; r < patches->record.run_count; r++) {
         const limn_file_run *const run = &patches->runs[r];
-        const limni_class *const class = &a->classes->items[run->class_index];
-        const uint32_t slot_size = slot_size_of(class);
+        const limn_file_class record = limni_class_record(&a->classes->items[run->class_index]);
+        const uint32_t slot_size = limn_file_slot_size(&record);
         for (uint32_t p = 0; p < run->patch_count; p++) {
             const uint32_t packed = patches->faces[run->first_patch + p];
             const uint32_t count = list_points(a, packed >> 2, packed & 3, pairs);

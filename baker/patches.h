@@ -7,7 +7,7 @@
 #include "control_normals.h"
 #include "isolation.h"
 
-/// Bytes of a mesh baked alone, without what is the same whether it is isolated or not.
+/// Bytes of a mesh baked alone, without control points and their normals.
 typedef struct limni_footprint {
     uint64_t tables; ///< with what classes in pieces have in their place
     uint64_t total;  ///< with patches, and points

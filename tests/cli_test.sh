@@ -494,6 +494,11 @@ notes 'sail: isolated: its tables would take [0-9]* bytes, or [0-9]* isolated' b
 notes 'torus32: not isolated: ' bake "$sail" "$torus" -o chosen.limn --isolate auto
 works info chosen.limn
 says stdout 'isolate=mixed bytes=[0-9]* isolated-bytes=[0-9]*$'
+notes 'sail: isolated: ' bake "$sail" -o alone.limn --isolate auto
+works info alone.limn --json
+bytes=0
+for key in table_size columns_size patch_size points_size; do bytes=$((bytes + $(json $key))); done
+says stdout " isolated-bytes=$bytes\""
 notes 'torus32: not isolated: ' bake "$torus" -o alone.limn --isolate auto
 works info --json alone.limn
 expect "points of a mesh that is not isolated" "$(json points)" 16
