@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* Symbolic subdivision against worked examples. */
 #include "../baker/base.h"
+#include "../baker/masks.h"
 #include "../baker/subdivide.h"
 #include "check.h"
 #include "limn/limn.h"
 
 #include <math.h>
+#include <string.h>
 
 static double value(limni_fixed a) {
     return ldexp((double)a, -LIMNI_FIXED_BITS);
@@ -351,6 +353,120 @@ static void test_polygons_divide(void) {
     }
 }
 
+// ---- The butterfly's edges
+
+/// What the vertex on the edge of half-edge h has of each vertex, seen from where h starts or from
+/// the other end, whose star the masks then have. Returns the place of the edge in that.
+static uint32_t edge_weights(limni_masks *masks, uint32_t h, bool from_end,
+                             limni_fixed weights[SLOTS]) {
+    const limni_mesh *const mesh = masks->mesh;
+    const uint32_t end = from_end ? limni_half_edge_end(mesh, h) : mesh->corners[h];
+    uint32_t r = 0;
+    limni_masks_look(masks, end, LIMNI_NONE);
+    while (masks->ring_edges[r] != h && masks->ring_edges[r] != mesh->pairs[h])
+        r++;
+    limni_masks_edge(masks, end, r);
+    memset(weights, 0, SLOTS * sizeof *weights);
+    for (uint32_t t = 0; t < masks->term_count; t++)
+        weights[masks->terms[t].control] += masks->terms[t].weight;
+    return r;
+}
+
+/// Adds what an extraordinary end inside gives the vertices around it (Zorin).
+static void add_extraordinary(const limni_masks *masks, uint32_t r, double share, double *sums) {
+    static const double of_3[] = {5 / 12., -1 / 12., -1 / 12.}, of_4[] = {3 / 8., 0, -1 / 8., 0};
+    const uint32_t n = masks->star.count;
+    for (uint32_t j = 0; j < n; j++) {
+        const double turn = 6.283185307179586 * j / n;
+        const double weight = n == 3   ? of_3[j]
+                              : n == 4 ? of_4[j]
+                                       : (0.25 + cos(turn) + cos(2 * turn) / 2) / n;
+        sums[masks->star.ring[(r + j) % n]] += share * weight;
+    }
+    sums[masks->vertex] += share * 3 / 4;
+}
+
+/// Both ends say the same, to the last bit, and the weights sum to exactly 1. Of closed meshes whose
+/// edges all have an extraordinary end, they are the mean of what those say.
+static void check_butterfly_edges(const limni_rules *rules, const face_list *faces, bool closed) {
+    context.desc.scheme = rules->scheme;
+    const limni_mesh mesh = mesh_of(faces);
+    limni_mesh_sharpness sharpness;
+    limni_masks masks;
+    CHECK_EQUAL(limni_mesh_sharpness_begin(&context, &mesh, rules, &sharpness), LIMN_BAKE_OK);
+    CHECK_EQUAL(limni_masks_begin(&context, &masks, &mesh, &sharpness, rules), LIMN_BAKE_OK);
+    for (uint32_t h = 0; h < mesh.half_edge_count; h++) {
+        limni_fixed weights[2][SLOTS], sum = 0;
+        double sums[SLOTS] = {0};
+        const uint32_t valences[2] = {mesh.valences[mesh.corners[h]],
+                                      mesh.valences[limni_half_edge_end(&mesh, h)]};
+        const double share = valences[0] != 6 && valences[1] != 6 ? 0.5 : 1;
+        for (int end = 0; end < 2; end++) {
+            const uint32_t r = edge_weights(&masks, h, end == 1, weights[end]);
+            if (closed && valences[end] != 6) add_extraordinary(&masks, r, share, sums);
+        }
+        CHECK(memcmp(weights[0], weights[1], sizeof weights[0]) == 0);
+        for (uint32_t v = 0; v < mesh.control_count; v++) {
+            sum += weights[0][v];
+            if (closed) CHECK_NEAR(value(weights[0][v]), sums[v], 1e-15);
+        }
+        CHECK_EQUAL(sum, LIMNI_FIXED_ONE);
+    }
+    limni_masks_end(&context, &masks);
+}
+
+/// Two tips with n neighbours, which have four; or one with n - 1 faces around it, and a boundary.
+static void test_butterfly_fans(void) {
+    static const float tensions[] = {0, 1 / 32.f};
+    uint32_t corners[2 * SLOTS][3], offsets[2 * SLOTS + 1];
+    for (uint32_t f = 0; f <= 2 * SLOTS; f++)
+        offsets[f] = 3 * f;
+    for (uint32_t n = 3; n <= SLOTS - 2; n++) {
+        const limni_rules rules = {.scheme = LIMN_SCHEME_BUTTERFLY,
+                                   .tension = limni_fixed_from(tensions[n % 2])};
+        for (uint32_t k = 0; k < n; k++) {
+            const uint32_t a = 2 + k, b = 2 + (k + 1) % n;
+            memcpy(corners[k], (uint32_t[]){0, a, b}, sizeof corners[k]);
+            memcpy(corners[n + k], (uint32_t[]){1, b, a}, sizeof corners[k]);
+        }
+        const face_list tips = {corners[0], offsets, 2 * n, n + 2};
+        check_butterfly_edges(&rules, &tips, true);
+        const face_list fan = {corners[0], offsets, n - 1, n + 2};
+        check_butterfly_edges(&rules, &fan, false);
+    }
+}
+
+/// The regular patch: its inner edge has ten points, and around it there is a boundary.
+static void test_butterfly_lattice(void) {
+    const double w = 1 / 32.;
+    const limni_rules rules = {.scheme = LIMN_SCHEME_BUTTERFLY,
+                               .tension = limni_fixed_from((float)w)};
+    const double expected[SLOTS] = {[0] = 0.5 - w,
+                                    [1] = 0.5 - w,
+                                    [2] = 1 / 8. + 2 * w,
+                                    [6] = 1 / 8. + 2 * w,
+                                    [3] = -1 / 16. - w,
+                                    [5] = -1 / 16. - w,
+                                    [7] = -1 / 16. - w,
+                                    [9] = -1 / 16. - w,
+                                    [4] = w,
+                                    [8] = w};
+    const limni_neighbourhood lattice = regular(&rules);
+    limni_masks masks;
+    limni_fixed weights[SLOTS];
+    CHECK_EQUAL(limni_masks_begin(&context, &masks, &lattice.mesh, &lattice.sharpness, &rules),
+                LIMN_BAKE_OK);
+    edge_weights(&masks, 0, false, weights);
+    for (uint32_t v = 0; v < SLOTS; v++)
+        CHECK_NEAR(value(weights[v]), expected[v], 1e-17);
+    limni_masks_end(&context, &masks);
+    uint32_t offsets[14];
+    for (uint32_t f = 0; f < 14; f++)
+        offsets[f] = 3 * f;
+    const face_list faces = {lattice.mesh.corners, offsets, 13, 12};
+    check_butterfly_edges(&rules, &faces, false);
+}
+
 int main(void) {
     test_brickhill_example();
     test_regular_limit();
@@ -358,6 +474,8 @@ int main(void) {
     test_regular_is_a_b_spline();
     test_bilinear();
     test_polygons_divide();
+    test_butterfly_fans();
+    test_butterfly_lattice();
     limni_release_all(&context);
     return check_report();
 }
