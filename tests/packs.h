@@ -16,6 +16,7 @@ typedef struct mesh_case {
     const float *positions;
     const uint32_t *faces;
     uint32_t position_count, face_count;
+    const uint32_t *face_sizes; ///< all the same; NULL: triangles
     const uint32_t *crease_edges;
     const float *crease_sharpness;
     uint32_t crease_count;
@@ -46,6 +47,18 @@ static const mesh_case strip = {.name = "strip",
                                 .faces = strip_faces,
                                 .position_count = 5,
                                 .face_count = 3};
+
+/// A box without its lid: two classes of quads.
+static const float box_positions[] = {0, 0, 0, 2, 0, 0, 2, 1, 0, 0, 1, 0,
+                                      0, 0, 1, 2, 0, 1, 2, 1, 1, 0, 1, 1};
+static const uint32_t box_faces[] = {0, 3, 2, 1, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7};
+static const uint32_t box_face_sizes[] = {4, 4, 4, 4, 4};
+static const mesh_case box = {.name = "box",
+                              .positions = box_positions,
+                              .faces = box_faces,
+                              .position_count = 8,
+                              .face_count = 5,
+                              .face_sizes = box_face_sizes};
 
 /// A fan of WHEEL_SIZE triangles around vertex 0 with an open rim: its one class is wide.
 enum { WHEEL_SIZE = 260 };
@@ -83,6 +96,7 @@ static inline blob bake_with(const limn_bake_desc *desc, const mesh_case *const 
                         baker, &(limn_bake_mesh){.name = meshes[m]->name,
                                                  .positions = meshes[m]->positions,
                                                  .position_count = meshes[m]->position_count,
+                                                 .face_sizes = meshes[m]->face_sizes,
                                                  .face_count = meshes[m]->face_count,
                                                  .face_indices = meshes[m]->faces,
                                                  .crease_edges = meshes[m]->crease_edges,

@@ -3,6 +3,10 @@
 #include "packs.h"
 
 static const limn_bake_desc with_normals = {.normals = LIMN_NORMALS_EXACT};
+static const limn_bake_desc butterfly = {.scheme = LIMN_SCHEME_BUTTERFLY,
+                                         .normals = LIMN_NORMALS_EXACT};
+static const limn_bake_desc catmark = {.scheme = LIMN_SCHEME_CATMARK,
+                                       .normals = LIMN_NORMALS_EXACT};
 
 #ifdef TEST_WITH_XXHASH
 #include <xxhash.h>
@@ -40,6 +44,7 @@ static void check_corner(corner *seen, const corner *now) {
 /// At level 0 the vertices of a patch are its corners. Turned the right way, all patches round a
 /// control point agree on its limit, its valence and whether it lies on a boundary.
 static void check_rotations(const mesh_case *expected, const limn_mesh *mesh) {
+    const uint32_t size = mesh->domain->corner_count;
     corner corners[WHEEL_SIZE + 1] = {0};
     float *const vertices = evaluate(mesh, 0);
     for (uint32_t r = 0; r < mesh->run_count; r++) {
@@ -47,12 +52,12 @@ static void check_rotations(const mesh_case *expected, const limn_mesh *mesh) {
         const limn_file_class *const class = &mesh->classes[run->class_index];
         for (uint32_t p = run->first_patch; p < run->first_patch + run->patch_count; p++) {
             const limn_patch_face face = limn_mesh_face(mesh, p);
-            for (uint32_t c = 0; c < 3; c++) {
-                const uint32_t at = 3 * face.face + (c + face.rotation) % 3;
+            for (uint32_t c = 0; c < size; c++) {
+                const uint32_t at = size * face.face + (c + face.rotation) % size;
                 corner now = {.known = true,
                               .valence = class->valences[c],
                               .boundary = class->boundary_corners >> c & 1};
-                memcpy(now.limit, vertices + 3 * (3 * (size_t)p + c), sizeof now.limit);
+                memcpy(now.limit, vertices + 3 * (size * (size_t)p + c), sizeof now.limit);
                 check_corner(&corners[expected->faces[at]], &now);
             }
         }
@@ -63,7 +68,7 @@ static void check_rotations(const mesh_case *expected, const limn_mesh *mesh) {
 static void check_bounds(const mesh_case *expected, const limn_mesh *mesh) {
     for (int axis = 0; axis < 3; axis++) {
         float low = INFINITY, high = -INFINITY;
-        for (uint32_t i = 0; i < 3 * expected->face_count; i++) {
+        for (uint32_t i = 0; i < mesh->domain->corner_count * expected->face_count; i++) {
             const uint32_t c = expected->faces[i]; // what no face uses does not count
             low = fminf(low, expected->positions[3 * c + (uint32_t)axis]);
             high = fmaxf(high, expected->positions[3 * c + (uint32_t)axis]);
@@ -75,7 +80,8 @@ static void check_bounds(const mesh_case *expected, const limn_mesh *mesh) {
 static void check_view(const mesh_case *expected, const limn_pack *pack, uint32_t m) {
     const limn_mesh mesh = limn_pack_mesh(pack, m);
     CHECK_TEXT(mesh.name, expected->name);
-    CHECK(mesh.domain == limn_domain_get(LIMN_DOMAIN_TRIANGLE));
+    CHECK(mesh.domain ==
+          limn_domain_get(expected->face_sizes ? LIMN_DOMAIN_QUAD : LIMN_DOMAIN_TRIANGLE));
     CHECK(mesh.kernels == pack->kernels);
     CHECK_EQUAL(mesh.patch_count, expected->face_count);
     if (!CHECK_EQUAL(mesh.control_count, expected->position_count)) return;
@@ -85,23 +91,36 @@ static void check_view(const mesh_case *expected, const limn_pack *pack, uint32_
     check_rotations(expected, &mesh);
 }
 
-static void test_views(void) {
-    const mesh_case *const meshes[] = {&tetrahedron, &wheel, &twin, &strip};
-    const blob file = bake(meshes, COUNT(meshes));
+static void check_views(const limn_bake_desc *desc, const mesh_case *const *meshes, size_t count,
+                        const char *info) {
+    const blob file = bake_with(desc, meshes, count);
     limn_pack pack;
     if (CHECK_EQUAL(limn_pack_open(&pack, file.bytes, file.size), LIMN_OK)) {
         CHECK(pack.blob == file.bytes);
         CHECK_EQUAL(pack.blob_size, file.size);
-        CHECK_TEXT(pack.info, "scheme=loop weights=loop boundary=edge-only normals=none");
+        CHECK_TEXT(pack.info, info);
         CHECK(pack.kernels == limn_kernels_select(LIMN_ISA_ALL, LIMN_FAMILY_REPRODUCIBLE));
         CHECK_EQUAL(pack.class_count, header_of(&file)->class_count);
-        CHECK_EQUAL(pack.mesh_count, COUNT(meshes));
+        CHECK_EQUAL(pack.mesh_count, count);
         for (uint32_t m = 0; m < pack.mesh_count; m++)
             check_view(meshes[m], &pack, m);
-        CHECK(limn_pack_mesh(&pack, 1)
-                  .classes[limn_pack_mesh(&pack, 1).runs[0].class_index]
-                  .control_count > LIMN_FORMAT_NARROW_SLOTS);
     }
+    free(file.bytes);
+}
+
+static void test_views(void) {
+    const mesh_case *const meshes[] = {&tetrahedron, &twin, &strip, &wheel};
+    check_views(NULL, meshes, 4, "scheme=loop weights=loop boundary=edge-only normals=none");
+    check_views(&butterfly, meshes, 3,
+                "scheme=butterfly tension=0 boundary=edge-only normals=exact");
+    check_views(&catmark, (const mesh_case *[]){&box}, 1,
+                "scheme=catmark boundary=edge-only normals=exact");
+}
+
+static void test_wide_class(void) {
+    const blob file = bake((const mesh_case *[]){&tetrahedron, &wheel}, 2);
+    const limn_file_run *const run = runs_of(&file, 1);
+    CHECK(classes_of(&file)[run->class_index].control_count > LIMN_FORMAT_NARROW_SLOTS);
     free(file.bytes);
 }
 
@@ -638,6 +657,7 @@ static void test_damaged_creases(void) {
 int main(void) {
     make_wheel();
     test_views();
+    test_wide_class();
     test_sharing();
     test_sizes();
     test_alignment();
@@ -647,6 +667,8 @@ int main(void) {
     bake_and_mend(NULL, (const mesh_case *[]){&tetrahedron, &twin}, 2);
     bake_and_mend(NULL, (const mesh_case *[]){&strip}, 1);
     bake_and_mend(&with_normals, (const mesh_case *[]){&strip, &twin}, 2);
+    bake_and_mend(&butterfly, (const mesh_case *[]){&strip}, 1);
+    bake_and_mend(&catmark, (const mesh_case *[]){&box}, 1);
     test_damaged_normals();
     test_damaged_creases();
     test_damages();
