@@ -148,14 +148,14 @@ static void test_levels(const drawn_mesh *drawn) {
     }
 }
 
-static void test_mesh(const char *folder, const char *name) {
+static void test_mesh(const limn_bake_desc *desc, const char *folder, const char *name) {
     char path[4096];
     const void *blob;
     size_t size;
     limn_pack pack;
     if (!folder || !*folder) return;
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    limn_baker *const baker = limn_baker_create(NULL);
+    limn_baker *const baker = limn_baker_create(desc);
     if (CHECK_EQUAL(limn_baker_add_file(baker, path), LIMN_BAKE_OK) &&
         CHECK_EQUAL(limn_baker_finish(baker, &blob, &size), LIMN_BAKE_OK) &&
         CHECK_EQUAL(limn_pack_open(&pack, blob, size), LIMN_OK)) {
@@ -175,11 +175,13 @@ static void test_mesh(const char *folder, const char *name) {
 
 int main(void) {
     const char *const own = getenv("LIMN_ASSETS"), *const further = getenv("LIMN_TEST_ASSETS");
-    test_mesh(own, "cube.off");
-    test_mesh(own, "torus32.obj");
-    test_mesh(own, "sail.obj");
-    test_mesh(own, "imp.obj");
-    test_mesh(further, "meshes/dragknob.off");
-    test_mesh(further, "meshes/spot_control_mesh.obj");
+    test_mesh(NULL, own, "cube.off");
+    test_mesh(NULL, own, "torus32.obj");
+    test_mesh(NULL, own, "sail.obj");
+    test_mesh(NULL, own, "imp.obj");
+    test_mesh(NULL, further, "meshes/dragknob.off");
+    test_mesh(NULL, further, "meshes/spot_control_mesh.obj");
+    test_mesh(&(limn_bake_desc){.scheme = LIMN_SCHEME_BUTTERFLY}, own, "torus32.obj");
+    test_mesh(&(limn_bake_desc){.scheme = LIMN_SCHEME_CATMARK}, own, "cube.off");
     return check_report();
 }
