@@ -2,7 +2,8 @@
 /*
  * Baked rows beside the modified butterfly, level by level on explicit meshes: random meshes, with
  * tables and in pieces of a mesh that was divided. Rows lie where the vertices of the explicit mesh
- * do, control points on the surface bit for bit, and normals are those of its limit.
+ * do, control points on the surface bit for bit, and normals are those of its limit, and of finite
+ * differences.
  */
 #include "../check.h"
 #include "../random_mesh.h"
@@ -16,6 +17,12 @@
 #include <string.h>
 
 enum { SEED_COUNT = 8, STEPS = LIMN_GRID_SIZE };
+
+/// Normals are off finite differences by less than this share of the spread of the triangles, but
+/// for a few where the surface has folds; and by so many radians in the mean.
+#define SHARE_MAX 0.7
+#define NEAR_MIN 0.985
+#define SLOPE_MEAN_MAX 0.01
 
 static void *allocate(size_t count, size_t size) {
     void *const memory = malloc(count * size + 1);
@@ -62,8 +69,8 @@ static butterfly_mesh subdivide(butterfly_mesh mesh, int levels) {
 
 // ---- Both
 
-static double largest_difference, largest_angle;
-static uint64_t row_count, normal_count;
+static double largest_difference, largest_angle, slope_sum;
+static uint64_t row_count, normal_count, slope_count, near_count;
 
 static double distance(const float *a, const double *b) {
     double square = 0;
@@ -77,6 +84,11 @@ static double diagonal_of(const limn_mesh *mesh) {
     return distance(mesh->bounds_min, high);
 }
 
+/// A unit normal of the triangles around a vertex, and how far theirs are from it.
+typedef struct facet_mean {
+    double normal[3], spread;
+} facet_mean;
+
 /// A baked mesh at level 4, and the explicit mesh of that level.
 typedef struct subject {
     limn_mesh mesh;
@@ -85,6 +97,7 @@ typedef struct subject {
     bool divided;
     butterfly_mesh finest;
     double (*expected_normals)[3];
+    facet_mean *differences; ///< [finest.vertex_count]; NULL: not wanted
     const random_mesh *random;
 } subject;
 
@@ -99,6 +112,51 @@ static void evaluate(subject *s) {
                                  .normals = s->normals,
                                  .control_normals = base_normals[0]});
     free(base_normals);
+}
+
+static double normalise(double *v) {
+    const double length = hypot(hypot(v[0], v[1]), v[2]);
+    for (int x = 0; x < 3; x++)
+        v[x] /= length;
+    return length;
+}
+
+/// The normal of corner k of a face, as long as twice its area.
+static void cross_at(const butterfly_mesh *mesh, int face, int k, double *product) {
+    const int *const corners = mesh->faces[face];
+    const double *const at = mesh->positions[corners[k]];
+    const double *const to = mesh->positions[corners[(k + 1) % 3]];
+    const double *const on = mesh->positions[corners[(k + 2) % 3]];
+    for (int x = 0; x < 3; x++) {
+        const int y = (x + 1) % 3, z = (x + 2) % 3;
+        product[x] = (to[y] - at[y]) * (on[z] - at[z]) - (to[z] - at[z]) * (on[y] - at[y]);
+    }
+}
+
+/// Finite differences: the mean of the triangles around each vertex, two levels down.
+static facet_mean *differentiate(const butterfly_mesh *mesh) {
+    butterfly_mesh finer = butterfly_subdivide(mesh);
+    finer = subdivide(finer, 1);
+    facet_mean *const made = allocate((size_t)mesh->vertex_count, sizeof *made);
+    memset(made, 0, (size_t)mesh->vertex_count * sizeof *made);
+    for (int pass = 0; pass < 2; pass++) {
+        for (int h = 0; h < 3 * finer.face_count; h++) {
+            const int vertex = finer.faces[h / 3][h % 3];
+            double product[3], square = 0;
+            if (vertex >= mesh->vertex_count) continue;
+            cross_at(&finer, h / 3, h % 3, product);
+            if (pass == 1) normalise(product);
+            for (int x = 0; x < 3; x++) {
+                if (pass == 0) made[vertex].normal[x] += product[x];
+                square += pow(product[x] - made[vertex].normal[x], 2);
+            }
+            made[vertex].spread = pass == 1 ? fmax(made[vertex].spread, sqrt(square)) : 0;
+        }
+        for (int v = 0; v < mesh->vertex_count && pass == 0; v++)
+            normalise(made[v].normal);
+    }
+    butterfly_destroy(&finer);
+    return made;
 }
 
 /// Boundary vertices with one face have no tangent plane.
@@ -118,6 +176,11 @@ static void compare_row(const subject *s, size_t at, int vertex, double diagonal
     CHECK(angle < 1e-3);
     largest_angle = fmax(largest_angle, angle);
     normal_count++;
+    if (!s->differences || butterfly_is_on_boundary(&s->finest, vertex)) return;
+    const double slope = distance(s->normals[at], s->differences[vertex].normal);
+    near_count += slope < SHARE_MAX * s->differences[vertex].spread;
+    slope_sum += slope;
+    slope_count++;
 }
 
 static void compare_patch(const subject *s, uint32_t patch, double diagonal) {
@@ -150,9 +213,11 @@ static void compare(const limn_pack *pack, const random_mesh *random, float tens
     s.finest = subdivide(s.finest, LIMN_LEVEL_MAX + s.divided);
     s.expected_normals = allocate((size_t)s.finest.vertex_count, sizeof *s.expected_normals);
     butterfly_normals(&s.finest, s.expected_normals);
+    if (!s.divided) s.differences = differentiate(&s.finest);
     for (uint32_t p = 0; p < s.plan.patch_count; p++)
         compare_patch(&s, p, diagonal_of(&s.mesh));
     free(s.expected_normals);
+    free(s.differences);
     free(s.positions);
     free(s.normals);
     butterfly_destroy(&s.finest);
@@ -193,6 +258,12 @@ int main(void) {
     printf("%llu rows: difference %.1e of the diagonal; %llu normals: angle %.1e\n",
            (unsigned long long)row_count, largest_difference, (unsigned long long)normal_count,
            largest_angle);
-    CHECK(normal_count > 50000);
+    const double near_share = (double)near_count / (double)slope_count;
+    const double slope_mean = slope_sum / (double)slope_count;
+    printf("%llu normals inside: %.4f near differences, %.1e off them in the mean\n",
+           (unsigned long long)slope_count, near_share, slope_mean);
+    CHECK(normal_count > 50000 && slope_count > 50000);
+    CHECK(near_share > NEAR_MIN);
+    CHECK(slope_mean < SLOPE_MEAN_MAX);
     return check_report();
 }
