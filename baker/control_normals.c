@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "control_normals.h"
 
+#include "classes.h"
+#include "hash.h"
 #include "subdivide.h"
 
 #include <string.h>
@@ -20,6 +22,7 @@ typedef struct builder {
     limni_sharpness *edges;      ///< [valence_max] of a star
     uint32_t *beyond;            ///< likewise
     limni_fixed *along, *across; ///< [2 * valence_max + 1]
+    limni_index_table by_masks;  ///< of wide normals: the first control point with these masks
 } builder;
 
 enum { RULE_COUNT = 3 };
@@ -34,8 +37,12 @@ static limn_bake_status begin(builder *b) {
     b->beyond = limni_allocate(b->context, count, sizeof *b->beyond);
     b->along = limni_allocate(b->context, 2 * count, sizeof *b->along);
     b->across = limni_allocate(b->context, 2 * count, sizeof *b->across);
-    if (!b->first_weights || !b->edges || !b->beyond || !b->along || !b->across)
+    b->by_masks.size = limni_hash_size(b->mesh->control_count);
+    b->by_masks.indices = limni_allocate(b->context, b->by_masks.size, sizeof(uint32_t));
+    if (!b->first_weights || !b->edges || !b->beyond || !b->along || !b->across ||
+        !b->by_masks.indices)
         return LIMN_BAKE_MEMORY;
+    memset(b->by_masks.indices, 0xff, b->by_masks.size * sizeof(uint32_t));
     memset(b->first_weights, 0xff, RULE_COUNT * count * sizeof *b->first_weights);
     return LIMN_BAKE_OK;
 }
@@ -46,6 +53,7 @@ static void end(const builder *b) {
     limni_release(b->context, b->beyond);
     limni_release(b->context, b->along);
     limni_release(b->context, b->across);
+    limni_release(b->context, b->by_masks.indices);
 }
 
 /// Neighbours, and in quads diagonals.
@@ -173,20 +181,33 @@ static void list_once(uint32_t *controls, uint32_t *count, uint32_t control) {
     controls[(*count)++] = control;
 }
 
-/// Appends the ring of a control point to a list.
-static void list_ring(const limni_mesh *mesh, uint32_t control, uint32_t *controls,
-                      uint32_t *count) {
-    uint32_t h = mesh->first[control];
+/// Appends the ring of a control point to a list, from half-edge `first` on.
+static void list_ring(const limni_mesh *mesh, uint32_t first, uint32_t *controls, uint32_t *count) {
+    uint32_t h = first;
     do {
         const uint32_t incoming = limni_half_edge_previous(mesh, h);
         list_once(controls, count, limni_half_edge_end(mesh, h));
         h = mesh->pairs[incoming];
         if (h == LIMNI_NONE) list_once(controls, count, mesh->corners[incoming]);
+    } while (h != LIMNI_NONE && h != first);
+}
+
+/// Appends the rings of those around a control point, closed ones from the edge to it on.
+static void list_second_rings(const limni_mesh *mesh, uint32_t control, uint32_t *controls,
+                              uint32_t *count) {
+    uint32_t h = mesh->first[control];
+    do {
+        const uint32_t neighbour = limni_half_edge_end(mesh, h);
+        const uint32_t incoming = limni_half_edge_previous(mesh, h);
+        const bool open = limni_is_boundary(mesh, neighbour);
+        list_ring(mesh, open ? mesh->first[neighbour] : mesh->pairs[h], controls, count);
+        h = mesh->pairs[incoming];
+        if (h == LIMNI_NONE) list_ring(mesh, mesh->first[mesh->corners[incoming]], controls, count);
     } while (h != LIMNI_NONE && h != mesh->first[control]);
 }
 
-/// A control point, those around it, and those around them. Returns how many; the first *inner have
-/// whole stars.
+/// A control point, those around it, and those around them, in an order that follows from how they
+/// are connected. The first *inner have whole stars.
 static limn_bake_status list_two_rings(builder *b, uint32_t control, uint32_t **controls,
                                        uint32_t *count, uint32_t *inner) {
     const limni_mesh *const mesh = b->mesh;
@@ -195,10 +216,9 @@ static limn_bake_status list_two_rings(builder *b, uint32_t control, uint32_t **
     if (!*controls) return LIMN_BAKE_MEMORY;
     *count = 0;
     list_once(*controls, count, control);
-    list_ring(mesh, control, *controls, count);
+    list_ring(mesh, mesh->first[control], *controls, count);
     *inner = *count;
-    for (uint32_t c = 1; c < *inner; c++)
-        list_ring(mesh, (*controls)[c], *controls, count);
+    list_second_rings(mesh, control, *controls, count);
     return LIMN_BAKE_OK;
 }
 
@@ -211,6 +231,34 @@ static limn_bake_status reserve_ring(builder *b, uint64_t size) {
     if (!ring) return LIMN_BAKE_MEMORY;
     b->normals->ring = ring;
     return LIMN_BAKE_OK;
+}
+
+/// Sets where the masks of a control point are that were written behind all others: there, or where
+/// an equal pair is.
+static void share_masks(builder *b, uint32_t control) {
+    limni_control_normals *const normals = b->normals;
+    limn_file_normal *const record = &normals->records[control];
+    const float *const own = normals->weights + normals->weight_count;
+    const size_t size = 2 * (size_t)record->ring_count * sizeof *own;
+    uint64_t hash = record->ring_count;
+    for (uint32_t w = 0; w < 2 * record->ring_count; w++) {
+        uint32_t bits;
+        memcpy(&bits, &own[w], sizeof bits);
+        hash = limni_hash_mix(hash, bits);
+    }
+    const limni_index_table *const table = &b->by_masks;
+    uint32_t at = (uint32_t)hash & (table->size - 1);
+    for (; table->indices[at] != LIMNI_NONE; at = (at + 1) & (table->size - 1)) {
+        const limn_file_normal *const other = &normals->records[table->indices[at]];
+        if (other->ring_count != record->ring_count ||
+            memcmp(normals->weights + other->first_weight, own, size) != 0)
+            continue;
+        record->first_weight = other->first_weight;
+        return;
+    }
+    table->indices[at] = control;
+    record->first_weight = (uint32_t)normals->weight_count;
+    normals->weight_count += 2 * (uint64_t)record->ring_count;
 }
 
 /// Where the scheme reads two rings: those are the ring, each control point once.
@@ -231,13 +279,14 @@ static limn_bake_status write_wide_normal(builder *b, uint32_t control) {
     LIMNI_TRY(limni_vertex_tangents(b->context, b->rules, &around, along, along + count));
     LIMNI_TRY(reserve_weights(b, 2 * ((uint64_t)count - 1)));
     LIMNI_TRY(reserve_ring(b, count - 1));
-    normals->records[control] = (limn_file_normal){.first_ring = (uint32_t)normals->ring_size,
-                                                   .ring_count = count - 1,
-                                                   .first_weight = (uint32_t)normals->weight_count};
+    normals->records[control] =
+        (limn_file_normal){.first_ring = (uint32_t)normals->ring_size, .ring_count = count - 1};
+    float *weight = normals->weights + normals->weight_count;
     for (uint32_t t = 0; t < 2; t++) {
         for (uint32_t c = 1; c < count; c++)
-            normals->weights[normals->weight_count++] = limni_fixed_to_float(along[t * count + c]);
+            *weight++ = limni_fixed_to_float(along[t * count + c]);
     }
+    share_masks(b, control);
     memcpy(normals->ring + normals->ring_size, controls + 1, (count - 1) * sizeof *controls);
     normals->ring_size += count - 1;
     limni_release(b->context, along);

@@ -135,6 +135,18 @@ static void test_sharing(void) {
     free(two.bytes);
 }
 
+/// Vertices with the same surroundings share the masks of their normals.
+static void test_sharing_masks(void) {
+    const limn_bake_desc *const descs[] = {&with_normals, &butterfly};
+    for (size_t d = 0; d < COUNT(descs); d++) {
+        const blob file = bake_with(descs[d], (const mesh_case *[]){&tetrahedron, &strip}, 2);
+        CHECK_EQUAL(find_chunk(&file, TETRAHEDRON, LIMN_CHUNK_RINGS)->size, 12 * sizeof(uint32_t));
+        CHECK_EQUAL(find_chunk(&file, TETRAHEDRON, LIMN_CHUNK_WEIGHTS)->size,
+                    2 * 3 * sizeof(float));
+        free(file.bytes);
+    }
+}
+
 // ---- Damage that the header shows
 
 static void test_sizes(void) {
@@ -659,6 +671,7 @@ int main(void) {
     test_views();
     test_wide_class();
     test_sharing();
+    test_sharing_masks();
     test_sizes();
     test_alignment();
     test_headers();
