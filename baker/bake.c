@@ -136,6 +136,11 @@ static void release_source(limni_context *context, const limni_source *source) {
     limni_release(context, source->face_corners);
     limni_release(context, source->face_numbers);
     limni_release(context, source->face_lines);
+    for (uint32_t c = 0; c < source->channel_count; c++) {
+        limni_release(context, source->channels[c].values);
+        limni_release(context, source->channels[c].corner_values);
+    }
+    limni_release(context, source->channels);
     limni_release(context, source->tags.creases);
     limni_release(context, source->tags.sharp_vertices);
     limni_release(context, source->tags.holes);

@@ -31,9 +31,9 @@ static void fail_at(limni_context *context, const limni_source *source, uint32_t
 
 // ---- Weld
 
-static uint64_t position_hash(const float position[3]) {
+static uint64_t value_hash(const float value[3]) {
     uint32_t bits[3];
-    memcpy(bits, position, sizeof bits);
+    memcpy(bits, value, sizeof bits);
     return limni_hash_mix(limni_hash_mix(bits[0], bits[1]), bits[2]);
 }
 
@@ -50,42 +50,73 @@ static void follow(limni_source *source, const uint32_t *moved) {
         tags->sharp_vertices[v].position = moved[tags->sharp_vertices[v].position];
 }
 
-/// Merges control points with equal positions into the first of them. Numbers, and with them the
-/// lines, move up.
-limn_bake_status limni_weld(limni_context *context, limni_source *source) {
-    const uint32_t count = source->position_count;
-    const uint32_t size = limni_hash_size(count);
+limn_bake_status limni_merge_equal(limni_context *context, float (*values)[3], uint32_t *count,
+                                   uint32_t *moved, uint32_t *numbers) {
+    const uint32_t size = limni_hash_size(*count);
     uint32_t *const table = limni_allocate(context, size, sizeof *table);
-    uint32_t *const moved = limni_allocate(context, count, sizeof *moved);
-    source->position_numbers = limni_allocate(context, count, sizeof *source->position_numbers);
-    if (!table || !moved || !source->position_numbers) return LIMN_BAKE_MEMORY;
+    if (!table) return LIMN_BAKE_MEMORY;
     memset(table, 0xff, size * sizeof *table);
-
     uint32_t kept = 0;
-    for (uint32_t p = 0; p < count; p++) {
-        float *const position = source->positions[p];
+    for (uint32_t v = 0; v < *count; v++) {
         for (int axis = 0; axis < 3; axis++)
-            position[axis] += 0.0f; // -0 and 0 are one place
-        uint32_t at = (uint32_t)position_hash(position) & (size - 1);
-        while (table[at] != LIMNI_NONE &&
-               memcmp(source->positions[table[at]], position, sizeof *source->positions) != 0)
+            values[v][axis] += 0.0f; // -0 and 0 are one value
+        uint32_t at = (uint32_t)value_hash(values[v]) & (size - 1);
+        while (table[at] != LIMNI_NONE && memcmp(values[table[at]], values[v], sizeof *values) != 0)
             at = (at + 1) & (size - 1);
         if (table[at] == LIMNI_NONE) {
             table[at] = kept;
-            memmove(source->positions[kept], position, sizeof *source->positions);
-            source->position_numbers[kept] = p;
-            if (source->position_lines) source->position_lines[kept] = source->position_lines[p];
+            memmove(values[kept], values[v], sizeof *values);
+            if (numbers) numbers[kept] = v;
             kept++;
         }
-        moved[p] = table[at];
+        moved[v] = table[at];
     }
-    follow(source, moved);
-    if (kept < count)
-        limni_note(context, "%s: repaired: %u control points welded into others", file_of(source),
-                   count - kept);
-    source->position_count = kept;
+    *count = kept;
     limni_release(context, table);
+    return LIMN_BAKE_OK;
+}
+
+limn_bake_status limni_weld_channel(limni_context *context, limni_source_channel *channel,
+                                    uint32_t corner_count) {
+    uint32_t *const moved = limni_allocate(context, channel->value_count, sizeof *moved);
+    if (!moved) return LIMN_BAKE_MEMORY;
+    LIMNI_TRY(limni_merge_equal(context, channel->values, &channel->value_count, moved, NULL));
+    for (uint32_t c = 0; c < corner_count; c++)
+        channel->corner_values[c] = moved[channel->corner_values[c]];
     limni_release(context, moved);
+    return LIMN_BAKE_OK;
+}
+
+/// Merges control points with equal positions into the first of them. Numbers, and with them the
+/// lines, move up.
+static limn_bake_status weld_positions(limni_context *context, limni_source *source) {
+    const uint32_t count = source->position_count;
+    uint32_t *const moved = limni_allocate(context, count, sizeof *moved);
+    source->position_numbers = limni_allocate(context, count, sizeof *source->position_numbers);
+    if (!moved || !source->position_numbers) return LIMN_BAKE_MEMORY;
+    LIMNI_TRY(limni_merge_equal(context, source->positions, &source->position_count, moved,
+                                source->position_numbers));
+    for (uint32_t p = 0; p < source->position_count && source->position_lines; p++)
+        source->position_lines[p] = source->position_lines[source->position_numbers[p]];
+    follow(source, moved);
+    if (source->position_count < count)
+        limni_note(context, "%s: repaired: %u control points welded into others", file_of(source),
+                   count - source->position_count);
+    limni_release(context, moved);
+    return LIMN_BAKE_OK;
+}
+
+limn_bake_status limni_weld(limni_context *context, limni_source *source) {
+    LIMNI_TRY(weld_positions(context, source));
+    const uint32_t corner_count = source->face_offsets[source->face_count];
+    for (uint32_t c = 0; c < source->channel_count; c++) {
+        limni_source_channel *const channel = &source->channels[c];
+        const uint32_t count = channel->value_count;
+        LIMNI_TRY(limni_weld_channel(context, channel, corner_count));
+        if (channel->value_count < count)
+            limni_note(context, "%s: repaired: %u values of %s welded into others", file_of(source),
+                       count - channel->value_count, channel->name);
+    }
     return LIMN_BAKE_OK;
 }
 
@@ -100,11 +131,23 @@ static bool uses_twice(const uint32_t *corners, uint32_t size) {
     return false;
 }
 
+/// Moves corners of faces towards the front, with their values.
+static void move_corners(limni_source *source, uint32_t to, uint32_t from, uint32_t count) {
+    const size_t size = count * sizeof(uint32_t);
+    memmove(source->face_corners + to, source->face_corners + from, size);
+    for (uint32_t c = 0; c < source->channel_count; c++) {
+        uint32_t *const values = source->channels[c].corner_values;
+        memmove(values + to, values + from, size);
+    }
+}
+
 /// Removes corners that repeat the one before them, around the face. Returns the new size.
-static uint32_t remove_repeats(uint32_t *corners, uint32_t size) {
+static uint32_t remove_repeats(limni_source *source, uint32_t first, uint32_t size) {
+    const uint32_t *const corners = source->face_corners + first;
     uint32_t kept = 0;
     for (uint32_t c = 0; c < size; c++) {
-        if (kept == 0 || corners[c] != corners[kept - 1]) corners[kept++] = corners[c];
+        if (kept == 0 || corners[c] != corners[kept - 1])
+            move_corners(source, first + kept++, first + c, 1);
     }
     while (kept > 1 && corners[kept - 1] == corners[0])
         kept--;
@@ -160,10 +203,10 @@ typedef struct dropped {
 } dropped;
 
 /// Appends a face to those that are kept: in place, since it can only move towards the front.
-static void keep_face(limni_source *source, const uint32_t *corners, uint32_t size, uint32_t face,
+static void keep_face(limni_source *source, uint32_t first, uint32_t size, uint32_t face,
                       uint32_t kept) {
     const uint32_t offset = source->face_offsets[kept];
-    memmove(source->face_corners + offset, corners, size * sizeof *corners);
+    move_corners(source, offset, first, size);
     source->face_offsets[kept + 1] = offset + size;
     if (source->face_lines) source->face_lines[kept] = source->face_lines[face];
     source->face_numbers[kept] = face;
@@ -208,16 +251,15 @@ limn_bake_status limni_check_faces(limni_context *context, limni_source *source)
     uint32_t kept = 0, offset = 0;
     for (uint32_t face = 0; face < face_count; face++) {
         const uint32_t end = source->face_offsets[face + 1];
-        uint32_t *const corners = source->face_corners + offset;
-        const uint32_t full_size = end - offset;
-        const uint32_t size = drop ? remove_repeats(corners, full_size) : full_size;
+        const uint32_t first = offset, full_size = end - offset;
+        const uint32_t size = drop ? remove_repeats(source, first, full_size) : full_size;
         offset = end;
         if (size < 3) {
             counts.degenerate++;
             continue;
         }
         counts.mended += size < full_size;
-        keep_face(source, corners, size, face, kept);
+        keep_face(source, first, size, face, kept);
         LIMNI_TRY(check_face(context, source, &set, &counts, &kept));
     }
     source->face_count = kept;

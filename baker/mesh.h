@@ -32,10 +32,11 @@ typedef struct limni_mesh {
     uint32_t *origins; ///< [control_count] where a mesh was split, the control point of the source
                        ///< that each is, ascending; NULL: the index
     uint32_t half_edge_count;
-    uint32_t *offsets;  ///< [face_count + 1] the first half-edge of each face
-    uint32_t *corners;  ///< [half_edge_count] control points, counter-clockwise around each face
-    uint32_t *face_of;  ///< [half_edge_count]
-    uint32_t *polygons; ///< [face_count] the source face that a face came from
+    uint32_t *offsets; ///< [face_count + 1] the first half-edge of each face
+    uint32_t *corners; ///< [half_edge_count] control points, counter-clockwise around each face
+    uint32_t *source_corners; ///< [half_edge_count] the corner of the source that each starts from
+    uint32_t *face_of;        ///< [half_edge_count]
+    uint32_t *polygons;       ///< [face_count] the source face that a face came from
     uint32_t *pairs;    ///< [half_edge_count] the opposite half-edge, or LIMNI_NONE on a boundary
     uint32_t *first;    ///< [control_count] a half-edge that starts here, or LIMNI_NONE if unused;
                         ///< on a boundary the clockwise-most one

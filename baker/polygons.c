@@ -28,6 +28,8 @@ static void copy_faces(const limni_source *source, limni_mesh *mesh) {
     mesh->face_count = source->face_count;
     memcpy(mesh->corners, source->face_corners,
            source->face_offsets[source->face_count] * sizeof *mesh->corners);
+    for (uint32_t c = 0; c < source->face_offsets[source->face_count]; c++)
+        mesh->source_corners[c] = c;
     for (uint32_t face = 0; face < source->face_count; face++)
         mesh->polygons[face] = face;
 }
@@ -61,6 +63,7 @@ limn_bake_status limni_make_faces(limni_context *context, const limni_source *so
     const limn_domain_kind domain = domain_of(context->desc.scheme, source);
     const bool cut = domain == LIMN_DOMAIN_TRIANGLE;
     const uint64_t face_count = cut ? triangle_count : source->face_count;
+    const size_t half_edge_count = (size_t)(cut ? 3 * triangle_count : corner_count);
     *mesh = (limni_mesh){
         .name = source->name,
         .path = source->path,
@@ -72,11 +75,11 @@ limn_bake_status limni_make_faces(limni_context *context, const limni_source *so
         .domain = domain,
         .control_count = source->position_count,
         .controls = source->positions,
-        .corners = limni_allocate(context, (size_t)(cut ? 3 * triangle_count : corner_count),
-                                  sizeof *mesh->corners),
+        .corners = limni_allocate(context, half_edge_count, sizeof *mesh->corners),
+        .source_corners = limni_allocate(context, half_edge_count, sizeof *mesh->source_corners),
         .polygons = limni_allocate(context, (size_t)face_count, sizeof *mesh->polygons),
     };
-    if (!mesh->corners || !mesh->polygons) return LIMN_BAKE_MEMORY;
+    if (!mesh->corners || !mesh->source_corners || !mesh->polygons) return LIMN_BAKE_MEMORY;
     if (cut)
         LIMNI_TRY(limni_triangulate(context, source, mesh));
     else
@@ -88,6 +91,7 @@ void limni_mesh_end(limni_context *context, const limni_mesh *mesh) {
     limni_release(context, mesh->origins);
     limni_release(context, mesh->offsets);
     limni_release(context, mesh->corners);
+    limni_release(context, mesh->source_corners);
     limni_release(context, mesh->face_of);
     limni_release(context, mesh->polygons);
     limni_release(context, mesh->pairs);

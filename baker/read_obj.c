@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Wavefront OBJ: vertices, polygons, and OpenSubdiv's tags. Texture coordinates and normals are
- * checked and dropped; free-form geometry, groups and materials are skipped.
+ * Wavefront OBJ: vertices, texture coordinates, polygons, and OpenSubdiv's tags. Normals are checked
+ * and dropped; free-form geometry, groups and materials are skipped.
  */
 #include "read_lomont.h"
 #include "read_tag.h"
 
 enum { POSITION, TEXTURE, NORMAL, ELEMENT_COUNT };
+
+/// The channel that texture coordinates go to.
+enum { UV };
 
 /// What face corners refer to. Faces may refer to elements that come later in the file, so the
 /// highest reference is checked at the end.
@@ -35,9 +38,13 @@ static limn_bake_status read_position(obj_reader *reader) {
     return limni_builder_add_position(&reader->builder, position, line);
 }
 
+/// vt u v w, of which v is 0 if it is missing, and w is dropped.
 static limn_bake_status read_texture(obj_reader *reader) {
+    float value[3] = {0, 0, 0};
     reader->elements[TEXTURE].count++;
-    return limni_scanner_numbers(&reader->scanner, element_nouns[TEXTURE], 1, 3, NULL);
+    LIMNI_TRY(limni_scanner_numbers(&reader->scanner, element_nouns[TEXTURE], 1, 3, value));
+    value[2] = 0;
+    return limni_builder_add_value(&reader->builder, UV, value);
 }
 
 static limn_bake_status read_normal(obj_reader *reader) {
@@ -78,6 +85,16 @@ static limn_bake_status resolve(obj_reader *reader, uint32_t kind, bool relative
     return LIMN_BAKE_OK;
 }
 
+static limn_bake_status add_reference(obj_reader *reader, uint32_t kind, uint32_t index) {
+    limni_source_builder *const builder = &reader->builder;
+    if (kind == POSITION) {
+        LIMNI_TRY(limni_builder_add_corner(builder, index));
+        return limni_builder_set_corner_value(builder, UV, LIMNI_NO_VALUE);
+    }
+    if (kind == TEXTURE) return limni_builder_set_corner_value(builder, UV, index);
+    return LIMN_BAKE_OK;
+}
+
 /// One corner of a face: up to three numbers with '/' between them; the second may be missing.
 static limn_bake_status read_corner(obj_reader *reader, limni_token corner, uint32_t line) {
     const char *const end = corner.text + corner.size;
@@ -93,7 +110,7 @@ static limn_bake_status read_corner(obj_reader *reader, limni_token corner, uint
         uint32_t index = 0;
         if (!limni_parse_digits(&c, &number)) return fail_corner(reader, corner);
         LIMNI_TRY(resolve(reader, kind, relative, number, line, &index));
-        if (kind == POSITION) LIMNI_TRY(limni_builder_add_corner(&reader->builder, index));
+        LIMNI_TRY(add_reference(reader, kind, index));
         if (c == end) return LIMN_BAKE_OK;
         if (*c++ != '/') break;
     }
@@ -163,6 +180,30 @@ static limn_bake_status check_references(const obj_reader *reader) {
     return LIMN_BAKE_OK;
 }
 
+/// Corners without texture coordinates get (0, 0), in a file that has others.
+static limn_bake_status complete_uv(obj_reader *reader) {
+    limni_source *const source = reader->builder.source;
+    limni_source_channel *const uv = &source->channels[UV];
+    const uint32_t corner_count = reader->builder.corner_count, none = uv->value_count;
+    uint32_t missing = 0;
+    for (uint32_t c = 0; c < corner_count; c++) {
+        if (uv->corner_values[c] != LIMNI_NO_VALUE) continue;
+        uv->corner_values[c] = none;
+        missing++;
+    }
+    if (missing == corner_count) {
+        limni_release(reader->scanner.context, uv->values);
+        limni_release(reader->scanner.context, uv->corner_values);
+        source->channel_count = 0;
+        return LIMN_BAKE_OK;
+    }
+    if (missing == 0) return LIMN_BAKE_OK;
+    limni_note(reader->scanner.context,
+               "%s: %u of %u corners of faces have no texture coordinates, and get (0, 0)",
+               reader->scanner.path, missing, corner_count);
+    return limni_builder_add_value(&reader->builder, UV, (const float[3]){0, 0, 0});
+}
+
 static limn_bake_status read_lines(obj_reader *reader) {
     limni_scanner *scanner = &reader->scanner;
     limni_token keyword;
@@ -177,7 +218,8 @@ static limn_bake_status read_lines(obj_reader *reader) {
         return limni_fail(scanner->context, LIMN_BAKE_BAD_INPUT, "%s: the file has no faces",
                           scanner->path);
     }
-    return check_references(reader);
+    LIMNI_TRY(check_references(reader));
+    return complete_uv(reader);
 }
 
 limn_bake_status limni_read_obj(limni_context *context, const char *text, size_t size,
@@ -185,8 +227,10 @@ limn_bake_status limni_read_obj(limni_context *context, const char *text, size_t
     if (limni_is_lomont(text)) return limni_read_lomont(context, text, size, source);
     obj_reader reader = {.builder = limni_builder_begin(context, source)};
     source->index_base = 1;
+    LIMNI_TRY(limni_builder_add_channel(&reader.builder, "uv", LIMN_CHANNEL_UV, 2));
     LIMNI_TRY(limni_scanner_open(&reader.scanner, context, source->path, text, size));
     const limn_bake_status status = read_lines(&reader);
     limni_scanner_close(&reader.scanner);
+    limni_builder_end(&reader.builder);
     return status;
 }

@@ -182,6 +182,7 @@ static limn_bake_status begin_mesh(const refiner *r) {
     made->control_count = r->point_count;
     made->face_count = face_count;
     made->controls = NULL;
+    made->source_corners = NULL;
     made->origins = r->origins;
     made->edge_sharpness = made->vertex_sharpness = NULL;
     made->offsets = limni_allocate(context, (size_t)face_count + 1, sizeof *made->offsets);

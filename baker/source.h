@@ -39,6 +39,17 @@ typedef struct limni_tags {
     bool is_lomont;         ///< whether the format is Lomont's, and tags meant for his rules
 } limni_tags;
 
+/// Values that belong to the corners of faces, such as texture coordinates: vertices on a seam have
+/// several. Faces that share a value at a vertex are smooth across their edge there.
+typedef struct limni_source_channel {
+    const char *name; ///< such as "uv"
+    limn_channel_kind kind;
+    uint32_t component_count; ///< 1 to 3
+    float (*values)[3];       ///< [value_count], finite; further components are 0
+    uint32_t value_count;
+    uint32_t *corner_values; ///< parallel to face_corners, each < value_count
+} limni_source_channel;
+
 typedef struct limni_source {
     uint32_t index_base;        ///< of the file's own numbering, for messages: 1 in OBJ, else 0
     const char *name;           ///< of the mesh: the file's name without folder and extension
@@ -51,15 +62,31 @@ typedef struct limni_source {
     uint32_t face_count;
     uint32_t
         *face_offsets; ///< [face_count + 1] into face_corners; every face has at least 3 corners
-    uint32_t *face_corners; ///< position indices from 0, each < position_count
-    uint32_t *face_numbers; ///< [face_count] as read, from 0, set when faces are checked
-    uint32_t *face_lines;   ///< [face_count], from 1; NULL likewise
+    uint32_t *face_corners;         ///< position indices from 0, each < position_count
+    uint32_t *face_numbers;         ///< [face_count] as read, from 0, set when faces are checked
+    uint32_t *face_lines;           ///< [face_count], from 1; NULL likewise
+    limni_source_channel *channels; ///< [channel_count]
+    uint32_t channel_count;
     limni_tags tags;
 } limni_source;
 
 /// Reads a mesh file by its extension, .obj, .off or .ply (in any case). The arrays belong to the
 /// context.
 limn_bake_status limni_read_file(limni_context *context, const char *path, limni_source *source);
+
+/// Makes values that are equal the same, each the first of them, and 0 of -0.
+///
+/// values   [*count] those that are left move up
+/// moved    out: [*count] the new index of each
+/// numbers  out: [the new count] the old index of those that are left; or NULL
+limn_bake_status limni_merge_equal(limni_context *context, float (*values)[3], uint32_t *count,
+                                   uint32_t *moved, uint32_t *numbers);
+
+/// The same for the values of a channel.
+///
+/// corner_count  of all faces
+limn_bake_status limni_weld_channel(limni_context *context, limni_source_channel *channel,
+                                    uint32_t corner_count);
 
 /// Whether the path ends with an extension, in any case. lower: with its dot, in lower case
 bool limni_has_extension(const char *path, const char *lower);

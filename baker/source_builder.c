@@ -8,6 +8,11 @@ limni_source_builder limni_builder_begin(limni_context *context, limni_source *s
     return (limni_source_builder){.context = context, .source = source};
 }
 
+void limni_builder_end(limni_source_builder *builder) {
+    limni_release(builder->context, builder->channel_rooms);
+    builder->channel_rooms = NULL;
+}
+
 void *limni_make_room(limni_context *context, void *items, size_t count, size_t *room,
                       size_t size) {
     if (count < *room) return items;
@@ -102,5 +107,49 @@ limn_bake_status limni_builder_add_hole(limni_source_builder *builder, limni_hol
     if (!holes) return LIMN_BAKE_MEMORY;
     tags->holes = holes;
     holes[tags->hole_count++] = hole;
+    return LIMN_BAKE_OK;
+}
+
+limn_bake_status limni_builder_add_channel(limni_source_builder *builder, const char *name,
+                                           limn_channel_kind kind, uint32_t component_count) {
+    limni_source *const source = builder->source;
+    limni_source_channel *const channels =
+        limni_make_room(builder->context, source->channels, source->channel_count,
+                        &builder->channels_room, sizeof *channels);
+    if (!channels) return LIMN_BAKE_MEMORY;
+    source->channels = channels;
+    limni_channel_room *const rooms =
+        limni_make_room(builder->context, builder->channel_rooms, source->channel_count,
+                        &builder->channel_rooms_room, sizeof *rooms);
+    if (!rooms) return LIMN_BAKE_MEMORY;
+    builder->channel_rooms = rooms;
+    rooms[source->channel_count] = (limni_channel_room){0};
+    channels[source->channel_count++] =
+        (limni_source_channel){.name = name, .kind = kind, .component_count = component_count};
+    return LIMN_BAKE_OK;
+}
+
+limn_bake_status limni_builder_add_value(limni_source_builder *builder, uint32_t channel,
+                                         const float value[3]) {
+    limni_source_channel *const to = &builder->source->channels[channel];
+    void *const values =
+        limni_make_room(builder->context, to->values, to->value_count,
+                        &builder->channel_rooms[channel].values, sizeof *to->values);
+    if (!values) return LIMN_BAKE_MEMORY;
+    to->values = values;
+    memcpy(to->values[to->value_count++], value, sizeof *to->values);
+    return LIMN_BAKE_OK;
+}
+
+limn_bake_status limni_builder_set_corner_value(limni_source_builder *builder, uint32_t channel,
+                                                uint32_t value) {
+    limni_source_channel *const to = &builder->source->channels[channel];
+    const uint32_t corner = builder->corner_count - 1;
+    uint32_t *const corner_values =
+        limni_make_room(builder->context, to->corner_values, corner,
+                        &builder->channel_rooms[channel].corners, sizeof *corner_values);
+    if (!corner_values) return LIMN_BAKE_MEMORY;
+    to->corner_values = corner_values;
+    corner_values[corner] = value;
     return LIMN_BAKE_OK;
 }

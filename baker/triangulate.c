@@ -33,16 +33,20 @@ static void add_edge(edge_set *set, uint32_t a, uint32_t b) {
     *find_edge(set, limni_edge_key(a, b)) = limni_edge_key(a, b);
 }
 
-/// A polygon that is being cut, and where its triangles go.
+/// A polygon that is being cut.
 typedef struct polygon {
-    const limni_mesh *mesh;
-    uint32_t *corners;
+    const limni_source *source;
+    uint32_t *corners; ///< [size] of the source
     uint32_t size;
     double normal[3]; ///< of the whole polygon, by Newell's method; any length
 } polygon;
 
+static uint32_t control_at(const polygon *p, uint32_t corner) {
+    return p->source->face_corners[p->corners[corner]];
+}
+
 static const float *at(const polygon *p, uint32_t corner) {
-    return p->mesh->controls[p->corners[corner]];
+    return p->source->positions[control_at(p, corner)];
 }
 
 static void find_normal(polygon *p) {
@@ -106,11 +110,12 @@ static bool is_shorter(const cut *a, const cut *b) {
 
 static cut cut_at(const polygon *p, const edge_set *edges, uint32_t corner) {
     const uint32_t before = (corner + p->size - 1) % p->size, after = (corner + 1) % p->size;
+    const uint32_t a = control_at(p, before), b = control_at(p, after);
     return (cut){
         .corner = corner,
-        .existing = has_edge(edges, p->corners[before], p->corners[after]),
+        .existing = has_edge(edges, a, b),
         .length = squared_distance(at(p, before), at(p, after)),
-        .key = limni_edge_key(p->corners[before], p->corners[after]),
+        .key = limni_edge_key(a, b),
     };
 }
 
@@ -144,11 +149,13 @@ static uint32_t best_corner(const polygon *p, const edge_set *edges) {
     } while (true);
 }
 
-static void emit(limni_mesh *mesh, uint32_t source_face, uint32_t a, uint32_t b, uint32_t c) {
-    uint32_t *const corners = mesh->corners + 3 * (size_t)mesh->face_count;
-    corners[0] = a;
-    corners[1] = b;
-    corners[2] = c;
+static void emit(const polygon *p, const uint32_t corners[3], limni_mesh *mesh,
+                 uint32_t source_face) {
+    const size_t first = 3 * (size_t)mesh->face_count;
+    for (uint32_t c = 0; c < 3; c++) {
+        mesh->source_corners[first + c] = p->corners[corners[c]];
+        mesh->corners[first + c] = control_at(p, corners[c]);
+    }
     mesh->polygons[mesh->face_count++] = source_face;
 }
 
@@ -157,13 +164,13 @@ static void cut_polygon(polygon *p, edge_set *edges, limni_mesh *mesh, uint32_t 
     while (p->size > 3) {
         const uint32_t corner = best_corner(p, edges);
         const uint32_t before = (corner + p->size - 1) % p->size, after = (corner + 1) % p->size;
-        emit(mesh, source_face, p->corners[before], p->corners[corner], p->corners[after]);
-        add_edge(edges, p->corners[before], p->corners[after]);
+        emit(p, (const uint32_t[]){before, corner, after}, mesh, source_face);
+        add_edge(edges, control_at(p, before), control_at(p, after));
         memmove(p->corners + corner, p->corners + corner + 1,
                 (p->size - corner - 1) * sizeof *p->corners);
         p->size--;
     }
-    emit(mesh, source_face, p->corners[0], p->corners[1], p->corners[2]);
+    emit(p, (const uint32_t[]){0, 1, 2}, mesh, source_face);
 }
 
 static limn_bake_status make_edge_set(limni_context *context, const limni_source *source,
@@ -181,21 +188,34 @@ static limn_bake_status make_edge_set(limni_context *context, const limni_source
     return LIMN_BAKE_OK;
 }
 
+static uint32_t largest_face(const limni_source *source) {
+    uint32_t largest = 0;
+    for (uint32_t face = 0; face < source->face_count; face++) {
+        const uint32_t size = source->face_offsets[face + 1] - source->face_offsets[face];
+        if (size > largest) largest = size;
+    }
+    return largest;
+}
+
 limn_bake_status limni_triangulate(limni_context *context, const limni_source *source,
                                    limni_mesh *mesh) {
     edge_set edges = {0};
-    if (source->face_offsets[source->face_count] > 3 * (uint64_t)source->face_count)
-        LIMNI_TRY(make_edge_set(context, source, &edges));
+    const uint32_t largest = largest_face(source);
+    if (largest > 3) LIMNI_TRY(make_edge_set(context, source, &edges));
+    uint32_t *const corners = limni_allocate(context, largest, sizeof *corners);
+    if (!corners) return LIMN_BAKE_MEMORY;
     uint32_t quads = 0, larger = 0;
     for (uint32_t face = 0; face < source->face_count; face++) {
         const uint32_t begin = source->face_offsets[face];
-        polygon p = {.mesh = mesh,
-                     .corners = source->face_corners + begin,
-                     .size = source->face_offsets[face + 1] - begin};
+        polygon p = {
+            .source = source, .corners = corners, .size = source->face_offsets[face + 1] - begin};
+        for (uint32_t c = 0; c < p.size; c++)
+            corners[c] = begin + c;
         quads += p.size == 4;
         larger += p.size > 4;
         cut_polygon(&p, &edges, mesh, face);
     }
+    limni_release(context, corners);
     limni_release(context, edges.keys);
     if (quads || larger)
         limni_note(context, "%s: triangulated %u quads and %u larger polygons: %u faces became %u",

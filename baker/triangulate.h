@@ -4,8 +4,8 @@
 
 #include "mesh.h"
 
-/// Cuts the polygons of a source into the triangles of a mesh, which has room for corners and
-/// polygons, and no faces yet. Reorders the corners in the source.
+/// Cuts the polygons of a source into the triangles of a mesh, which has room for corners, with
+/// those of the source, and polygons, and no faces yet.
 limn_bake_status limni_triangulate(limni_context *context, const limni_source *source,
                                    limni_mesh *mesh);
 

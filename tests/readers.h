@@ -54,6 +54,17 @@ static inline bool has_valid_tags(const limni_tags *tags) {
     return valid;
 }
 
+static inline bool is_valid_channel(const limni_source_channel *channel, uint32_t corner_count) {
+    bool valid = channel->component_count > 0 && channel->component_count <= 3;
+    for (uint32_t v = 0; v < channel->value_count; v++) {
+        for (uint32_t axis = 0; axis < 3; axis++)
+            valid = valid && isfinite(channel->values[v][axis]);
+    }
+    for (uint32_t corner = 0; corner < corner_count; corner++)
+        valid = valid && channel->corner_values[corner] < channel->value_count;
+    return valid;
+}
+
 /// Everything that source.h promises about the arrays.
 static inline bool is_valid(const limni_source *source) {
     bool valid = source->position_count > 0 && source->face_count > 0;
@@ -72,6 +83,8 @@ static inline bool is_valid(const limni_source *source) {
     for (uint32_t corner = 0; corner < corner_count; corner++) {
         valid = valid && source->face_corners[corner] < source->position_count;
     }
+    for (uint32_t c = 0; c < source->channel_count; c++)
+        valid = valid && is_valid_channel(&source->channels[c], corner_count);
     return valid;
 }
 
@@ -117,6 +130,26 @@ static inline const char *describe_tags(const limni_source *source) {
         used += (size_t)snprintf(text + used, sizeof text - used, "%u:%u ", tags->holes[h].line,
                                  tags->holes[h].face);
     snprintf(text + used, sizeof text - used, "%d %d", (int)tags->boundary, (int)tags->creasing);
+    return text;
+}
+
+/// The channels as "name: x,y,z …  a b c …", values and then those of the corners.
+static inline const char *describe_channels(const limni_source *source) {
+    static char text[1024];
+    size_t used = 0;
+    text[0] = '\0';
+    for (uint32_t c = 0; c < source->channel_count; c++) {
+        const limni_source_channel *const channel = &source->channels[c];
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s: ", channel->name);
+        for (uint32_t v = 0; v < channel->value_count; v++) {
+            const float *const value = channel->values[v];
+            used += (size_t)snprintf(text + used, sizeof text - used, "%g,%g,%g ", (double)value[0],
+                                     (double)value[1], (double)value[2]);
+        }
+        for (uint32_t corner = 0; corner < source->face_offsets[source->face_count]; corner++)
+            used += (size_t)snprintf(text + used, sizeof text - used, " %u",
+                                     channel->corner_values[corner]);
+    }
     return text;
 }
 

@@ -41,6 +41,18 @@ static void test_good_obj(void) {
     check_good(limni_read_obj, cases, COUNT(cases));
 }
 
+static void test_channels(void) {
+    static const text_case cases[] = {
+        {XYZ "f 1 2 3\n", ""},
+        {XYZ "vt 0 1\nf 1 2 3\n", ""},
+        {XYZ "vt 1\nvt 2 3\nvt 4 5 6\nf 1/1 2/2 3/-1\nf 1/2/1 3/2/1 2/2\nvn 0 0 1\n",
+         "uv: 1,0,0 2,3,0 4,5,0  0 1 2 1 1 1"},
+        {XYZ "vt 7 8\nf 1/2 2 3//1\nvt 8 9\nvn 0 0 1\nf 2 3 1\n",
+         "uv: 7,8,0 8,9,0 0,0,0  1 2 2 2 2 2"},
+    };
+    check_described(limni_read_obj, cases, COUNT(cases), describe_channels);
+}
+
 static void test_bad_obj(void) {
     static const text_case cases[] = {
         {"", "t.obj: the file has no vertices"},
@@ -506,6 +518,7 @@ static void test_assets(void) {
 
 int main(void) {
     test_good_obj();
+    test_channels();
     test_bad_obj();
     test_good_tags();
     test_bad_tags();

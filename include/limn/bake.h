@@ -12,9 +12,7 @@
 #ifndef LIMN_BAKE_H
 #define LIMN_BAKE_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "limn/limn.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -85,7 +83,8 @@ typedef enum limn_isolate {
 
 /// What may be mended, as bits. Done in this order.
 typedef enum limn_repair {
-    LIMN_REPAIR_WELD = 1 << 0, ///< merge control points whose positions are equal
+    LIMN_REPAIR_WELD = 1 << 0, ///< merge control points whose positions are equal, and values of
+                               ///< channels that are
     LIMN_REPAIR_DROP = 1 << 1, ///< drop faces that use a control point twice or repeat another face
     LIMN_REPAIR_ALL = 3
 } limn_repair;

@@ -241,6 +241,12 @@ typedef struct limn_pack {
     const limn_kernels *kernels; ///< the best reproducible ones; replace them to use others
 } limn_pack;
 
+/// What the values of a channel are.
+typedef enum limn_channel_kind {
+    LIMN_CHANNEL_UV,    ///< texture coordinates
+    LIMN_CHANNEL_COLOUR ///< red, green and blue, from 0 to 1
+} limn_channel_kind;
+
 /// A view of one mesh of a pack. Plain data; copy it freely.
 typedef struct limn_mesh {
     const char *name;
