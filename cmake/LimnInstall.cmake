@@ -7,7 +7,7 @@ set(limn_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/limn)
 set(limn_pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 install(TARGETS limn_runtime EXPORT limnTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES include/limn/limn.h include/limn/format.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/limn)
+install(FILES include/limn/limn.h include/limn/character.h include/limn/format.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/limn)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 if(TARGET limn_bake)
     install(TARGETS limn_bake EXPORT limnTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

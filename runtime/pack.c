@@ -3,71 +3,15 @@
  * Opening a file: every offset, count and index is checked here, once, so that nothing else in the
  * runtime needs to. The checks go from the outside in; each may rely on those before it.
  */
+#include "character.h"
 #include "checksum.h"
-#include "limn/format.h"
-#include "limn/limn.h"
+#include "chunks.h"
 #include "mesh.h"
 #include "require.h"
 
 #include <string.h>
 
-#define TRY(call)                                                                                  \
-    do {                                                                                           \
-        const limn_result try_result = (call);                                                     \
-        if (try_result != LIMN_OK) return try_result;                                              \
-    } while (0)
-
 // ---- Chunks
-
-static const unsigned char *bytes_at(const limn_pack *pack, uint64_t offset) {
-    return (const unsigned char *)pack->blob + offset;
-}
-
-static const limn_file_header *header_of(const limn_pack *pack) {
-    return (const limn_file_header *)pack->blob;
-}
-
-static const limn_file_chunk *directory_of(const limn_pack *pack) {
-    return (const limn_file_chunk *)(const void *)bytes_at(pack, sizeof(limn_file_header));
-}
-
-/// The directory is sorted by this: the chunks of the file first, then mesh by mesh.
-static uint64_t chunk_key(uint32_t mesh, uint32_t kind) {
-    return (uint64_t)(uint32_t)(mesh + 1) << 32 | kind;
-}
-
-static const limn_file_chunk *find_chunk(const limn_pack *pack, uint32_t mesh, uint32_t kind) {
-    const limn_file_chunk *const chunks = directory_of(pack);
-    const uint64_t key = chunk_key(mesh, kind);
-    uint32_t low = 0, high = header_of(pack)->chunk_count;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        const uint64_t other = chunk_key(chunks[middle].mesh, chunks[middle].kind);
-        if (other == key) return &chunks[middle];
-        if (other < key) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return NULL;
-}
-
-/// The start of a chunk that validation has found to be there.
-static const void *chunk_data(const limn_pack *pack, uint32_t mesh, uint32_t kind) {
-    return bytes_at(pack, find_chunk(pack, mesh, kind)->offset);
-}
-
-static const void *optional_data(const limn_pack *pack, uint32_t mesh, uint32_t kind) {
-    const limn_file_chunk *const chunk = find_chunk(pack, mesh, kind);
-    return chunk ? bytes_at(pack, chunk->offset) : NULL;
-}
-
-static bool chunk_has_size(const limn_pack *pack, uint32_t mesh, uint32_t kind, uint64_t count,
-                           size_t record_size) {
-    const limn_file_chunk *const chunk = find_chunk(pack, mesh, kind);
-    return chunk && chunk->size % record_size == 0 && chunk->size / record_size == count;
-}
 
 static const uint32_t kinds_of_file[] = {LIMN_CHUNK_INFO, LIMN_CHUNK_CLASSES, LIMN_CHUNK_TABLES,
                                          LIMN_CHUNK_PIECES, LIMN_CHUNK_COLUMNS};
@@ -87,6 +31,7 @@ static bool is_among(uint32_t kind, const uint32_t *kinds, size_t count) {
 }
 
 static bool is_known(const limn_file_chunk *chunk) {
+    if (limni_is_character_chunk(chunk)) return true;
     if (chunk->mesh == LIMN_FORMAT_NO_MESH)
         return is_among(chunk->kind, kinds_of_file, sizeof kinds_of_file / sizeof(uint32_t));
     return is_among(chunk->kind, kinds_of_mesh, sizeof kinds_of_mesh / sizeof(uint32_t)) ||
@@ -152,16 +97,6 @@ static limn_result validate_text(const limn_pack *pack, uint32_t mesh, uint32_t 
 }
 
 // ---- Validation of the tables
-
-static bool all_finite(const float *values, size_t count) {
-    uint32_t bad = 0;
-    for (size_t v = 0; v < count; v++) {
-        uint32_t bits;
-        memcpy(&bits, &values[v], sizeof bits);
-        bad |= (bits & 0x7f800000u) == 0x7f800000u;
-    }
-    return !bad;
-}
 
 /// Whether tables of that shape lie inside the tables chunk.
 static bool are_tables_inside(const limn_file_chunk *tables, uint64_t offset, uint32_t table_count,
@@ -499,6 +434,7 @@ limn_result limn_pack_open(limn_pack *pack, const void *blob, size_t blob_size) 
     opened.classes = chunk_data(&opened, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_CLASSES);
     for (uint32_t m = 0; m < opened.mesh_count; m++)
         TRY(validate_mesh(&opened, m));
+    TRY(limni_validate_character(&opened));
     opened.info = chunk_data(&opened, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_INFO);
     opened.kernels = limn_kernels_select(LIMN_ISA_ALL, LIMN_FAMILY_REPRODUCIBLE);
     *pack = opened;

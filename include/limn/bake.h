@@ -115,6 +115,7 @@ typedef struct limn_bake_desc {
     limn_creasing creasing;
     limn_normals normals;
     limn_isolate isolate;
+    bool images;     ///< store the images of materials, as they are, and not only their names
     uint32_t repair; ///< LIMN_REPAIR_… bits; 0: refuse bad faces
     limn_non_manifold non_manifold;
     limn_bake_note_fn *note;
@@ -151,8 +152,9 @@ typedef struct limn_baker limn_baker;
 limn_baker *limn_baker_create(const limn_bake_desc *desc);
 void limn_baker_destroy(limn_baker *baker);
 
-/// Adds the mesh in an .obj, .off or .ply file, named after the file. After an error the baker can
-/// only be destroyed.
+/// Adds the mesh in an .obj, .off or .ply file, named after the file; or of a .gltf or .glb file all
+/// meshes of its scene, named after their nodes, with skeleton, clips and materials. After an error
+/// the baker can only be destroyed.
 limn_bake_status limn_baker_add_file(limn_baker *baker, const char *path);
 
 /// Adds a mesh from memory, copying it. Errors name faces and vertices by index from 0. Tags of

@@ -96,6 +96,28 @@ extern "C" {
 #define LIMN_CHUNK_SIDES LIMN_FORMAT_KIND('S', 'I', 'D', 'E')
 #define LIMN_CHUNK_CORNERS LIMN_FORMAT_KIND('C', 'O', 'R', 'N')
 
+/// Characters: what moves and colours meshes. None of these chunks is required. In the file: texts,
+/// zero-terminated, one behind the other; limn_file_joint[], limn_file_clip[], limn_file_track[],
+/// float[]; limn_file_material[], limn_file_image[], and the bytes of images.
+#define LIMN_CHUNK_STRINGS LIMN_FORMAT_KIND('S', 'T', 'R', 'S')
+#define LIMN_CHUNK_SKELETON LIMN_FORMAT_KIND('S', 'K', 'E', 'L')
+#define LIMN_CHUNK_CLIPS LIMN_FORMAT_KIND('C', 'L', 'I', 'P')
+#define LIMN_CHUNK_TRACKS LIMN_FORMAT_KIND('T', 'R', 'A', 'K')
+#define LIMN_CHUNK_KEYS LIMN_FORMAT_KIND('K', 'E', 'Y', 'S')
+#define LIMN_CHUNK_MATERIALS LIMN_FORMAT_KIND('M', 'A', 'T', 'L')
+#define LIMN_CHUNK_IMAGES LIMN_FORMAT_KIND('I', 'M', 'A', 'G')
+#define LIMN_CHUNK_IMAGE_BYTES LIMN_FORMAT_KIND('I', 'D', 'A', 'T')
+
+/// In a mesh: uint16_t[] and float[control_count][influence_count]; limn_file_target[],
+/// uint32_t[target_count + 1], uint32_t[] and float[][3]; limn_file_range[].
+#define LIMN_CHUNK_JOINTS LIMN_FORMAT_KIND('J', 'O', 'I', 'N')
+#define LIMN_CHUNK_INFLUENCES LIMN_FORMAT_KIND('I', 'N', 'F', 'L')
+#define LIMN_CHUNK_TARGETS LIMN_FORMAT_KIND('M', 'T', 'G', 'T')
+#define LIMN_CHUNK_TARGET_FIRST LIMN_FORMAT_KIND('M', 'F', 'S', 'T')
+#define LIMN_CHUNK_TARGET_POINTS LIMN_FORMAT_KIND('M', 'P', 'N', 'T')
+#define LIMN_CHUNK_TARGET_DELTAS LIMN_FORMAT_KIND('M', 'D', 'E', 'L')
+#define LIMN_CHUNK_RANGES LIMN_FORMAT_KIND('M', 'A', 'T', 'R')
+
 /// Bit of limn_file_chunk.flags: a reader that does not know this chunk must refuse the file.
 #define LIMN_CHUNK_REQUIRED 1u
 
@@ -241,6 +263,74 @@ typedef struct limn_file_run {
     uint64_t first_slot;  ///< into the slots chunk, in bytes; even where slots are two bytes wide
 } limn_file_run;
 
+/// For a joint without a parent, a material without an image, and patches without a material.
+#define LIMN_FORMAT_NONE 0xffffffffu
+
+/// Joints on the way from a root to any joint, at most.
+#define LIMN_FORMAT_DEPTH_OF_JOINTS 256u
+
+/// Joints in depth-first order: the parent of a joint is the one before it, or one that is on the
+/// way from there to a root.
+typedef struct limn_file_joint {
+    uint32_t parent;                             ///< or LIMN_FORMAT_NONE
+    uint32_t name;                               ///< into the strings, as the next ones
+    float translation[3], rotation[4], scale[3]; ///< at rest, relative to the parent
+    float inverse_bind[3][4]; ///< from the space of the points in the bind pose into its own
+} limn_file_joint;
+
+/// Tracks of a clip follow those of the clip before.
+typedef struct limn_file_clip {
+    uint32_t name;
+    uint32_t first_track, track_count;
+    float duration; ///< seconds
+} limn_file_clip;
+
+/// What tracks move.
+#define LIMN_FORMAT_TRANSLATION 0u
+#define LIMN_FORMAT_ROTATION 1u
+#define LIMN_FORMAT_SCALE 2u
+#define LIMN_FORMAT_TARGET_WEIGHTS 3u
+
+#define LIMN_FORMAT_STEP 0u
+#define LIMN_FORMAT_LINEAR 1u
+#define LIMN_FORMAT_CUBIC 2u
+
+/// In the keys, behind those of the track before: key_count times, which ascend; and for each a
+/// value of `width` floats, or of cubic ones three: a tangent, the value, and a tangent.
+typedef struct limn_file_track {
+    uint32_t target;       ///< a joint, or of LIMN_FORMAT_TARGET_WEIGHTS a mesh
+    uint8_t path;          ///< LIMN_FORMAT_TRANSLATION and so on
+    uint8_t interpolation; ///< LIMN_FORMAT_STEP and so on
+    uint16_t width;        ///< 3, of rotations 4, of weights those of the mesh
+    uint32_t key_count;
+    uint32_t first_key; ///< into the keys
+} limn_file_track;
+
+typedef struct limn_file_material {
+    uint32_t name;
+    uint32_t image;           ///< or LIMN_FORMAT_NONE
+    uint32_t texture_channel; ///< of its texture coordinates: n of TEXCOORD_n
+    uint32_t reserved;
+    float base_colour[4]; ///< linear, with alpha
+} limn_file_material;
+
+typedef struct limn_file_image {
+    uint32_t name;
+    uint32_t reserved;
+    uint64_t offset, size; ///< in the bytes of images; size 0: it is not in the file
+} limn_file_image;
+
+typedef struct limn_file_target {
+    uint32_t name;
+    float weight; ///< at rest
+} limn_file_target;
+
+/// Patches of one material. Ranges follow one another and cover all patches of a mesh.
+typedef struct limn_file_range {
+    uint32_t material; ///< or LIMN_FORMAT_NONE
+    uint32_t first_patch, patch_count;
+} limn_file_range;
+
 LIMN_STATIC_ASSERT(sizeof(limn_file_header) == 64, "header");
 LIMN_STATIC_ASSERT(offsetof(limn_file_header, checksum) == 16, "header.checksum");
 LIMN_STATIC_ASSERT(offsetof(limn_file_header, chunk_count) == 24, "header.chunk_count");
@@ -258,6 +348,14 @@ LIMN_STATIC_ASSERT(offsetof(limn_file_mesh, bounds_min) == 24, "mesh.bounds_min"
 LIMN_STATIC_ASSERT(offsetof(limn_file_mesh, divided_count) == 68, "mesh.divided_count");
 LIMN_STATIC_ASSERT(sizeof(limn_file_run) == 32, "run");
 LIMN_STATIC_ASSERT(offsetof(limn_file_run, first_index) == 16, "run.first_index");
+LIMN_STATIC_ASSERT(sizeof(limn_file_joint) == 96, "joint");
+LIMN_STATIC_ASSERT(offsetof(limn_file_joint, inverse_bind) == 48, "joint.inverse_bind");
+LIMN_STATIC_ASSERT(sizeof(limn_file_clip) == 16, "clip");
+LIMN_STATIC_ASSERT(sizeof(limn_file_track) == 16, "track");
+LIMN_STATIC_ASSERT(sizeof(limn_file_material) == 32, "material");
+LIMN_STATIC_ASSERT(sizeof(limn_file_image) == 24, "image");
+LIMN_STATIC_ASSERT(sizeof(limn_file_target) == 8, "target");
+LIMN_STATIC_ASSERT(sizeof(limn_file_range) == 12, "range");
 
 #ifdef __cplusplus
 }

@@ -80,7 +80,12 @@ uint32_t limn_version(void);
     X(LIMN_ERROR_WEIGHT_SUM,                                                                       \
       "the weights of a point do not sum to 1; limn_skin_normalise() mends that unless all are 0") \
     X(LIMN_ERROR_MORPH_POINT, "the points of a morph target are out of range or do not ascend")    \
-    X(LIMN_ERROR_MORPH_DELTA, "a movement of a morph target is not finite")
+    X(LIMN_ERROR_MORPH_DELTA, "a movement of a morph target is not finite")                        \
+    X(LIMN_ERROR_SKELETON, "the joints are not in order, too deep, or not finite")                 \
+    X(LIMN_ERROR_CLIP,                                                                             \
+      "the tracks of a clip are not in order, not finite, or move what does not exist")            \
+    X(LIMN_ERROR_MATERIAL,                                                                         \
+      "a material or an image is out of range, or ranges do not cover the patches of a mesh")
 
 typedef enum limn_result {
 #define LIMN_RESULT_NAME(name, text) name,
