@@ -5,6 +5,7 @@
 #include "choose_isolation.h"
 #include "edge_errors.h"
 #include "output_file.h"
+#include "scene.h"
 #include "scheme.h"
 #include "write.h"
 
@@ -18,6 +19,7 @@ struct limn_baker {
     limni_classes classes, pieces;
     limni_patches *meshes;
     uint32_t mesh_count, mesh_capacity;
+    limni_character character;
     limn_bake_status failed; ///< the first error: after it nothing can be trusted
     unsigned char *blob;     ///< of all meshes so far, or NULL
     size_t blob_size;
@@ -136,6 +138,8 @@ static void release_source(limni_context *context, const limni_source *source) {
     limni_release(context, source->face_corners);
     limni_release(context, source->face_numbers);
     limni_release(context, source->face_lines);
+    limni_release(context, source->face_materials);
+    limni_rig_release(context, &source->rig);
     for (uint32_t c = 0; c < source->channel_count; c++) {
         limni_release(context, source->channels[c].values);
         limni_release(context, source->channels[c].corner_values);
@@ -187,6 +191,7 @@ static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
         limni_patches_build(context, &base, &rules, &baker->classes, &baker->pieces, patches));
     LIMNI_TRY(
         limni_edge_errors_build(context, base.mesh, &baker->classes, &baker->pieces, patches));
+    LIMNI_TRY(limni_rig_build(context, source, &mesh, &patches->rig));
     memcpy(patches->footprints, footprints, sizeof footprints);
     if (patches->controls != mesh.controls) limni_release(context, mesh.controls);
     baker->mesh_count++;
@@ -197,9 +202,11 @@ static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
 }
 
 static limn_bake_status add_file(limn_baker *baker, const char *path) {
-    limni_source source = {0};
-    LIMNI_TRY(limni_read_file(&baker->context, path, &source));
-    return add_source(baker, &source);
+    limni_scene scene = {.first_mesh = baker->mesh_count, .character = &baker->character};
+    LIMNI_TRY(limni_read_scene(&baker->context, path, &scene));
+    for (uint32_t s = 0; s < scene.source_count; s++)
+        LIMNI_TRY(add_source(baker, &scene.sources[s]));
+    return LIMN_BAKE_OK;
 }
 
 limn_bake_status limn_baker_add_file(limn_baker *baker, const char *path) {
@@ -316,8 +323,8 @@ limn_bake_status limn_baker_finish(limn_baker *baker, const void **blob, size_t 
         return limni_fail(&baker->context, LIMN_BAKE_BAD_INPUT, "there is no mesh to bake");
     if (!baker->blob)
         LIMNI_TRY(limni_write_blob(&baker->context, &baker->rules, &baker->classes, &baker->pieces,
-                                   baker->meshes, baker->mesh_count, &baker->blob,
-                                   &baker->blob_size));
+                                   baker->meshes, baker->mesh_count, &baker->character,
+                                   &baker->blob, &baker->blob_size));
     *blob = baker->blob;
     *blob_size = baker->blob_size;
     return LIMN_BAKE_OK;

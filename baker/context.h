@@ -9,6 +9,10 @@
 
 #include "limn/bake.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define LIMNI_TRY(call)                                                                            \
     do {                                                                                           \
         const limn_bake_status try_status = (call);                                                \
@@ -53,5 +57,9 @@ limn_bake_status limni_fail(limni_context *context, limn_bake_status status, con
 void limni_note(limni_context *context, const char *format, ...) LIMNI_PRINTF(2, 3);
 
 void limni_progress(limni_context *context, const char *step, uint32_t done, uint32_t total);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

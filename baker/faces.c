@@ -2,6 +2,7 @@
 /* Faces on their own, before they are connected: what is degenerate or repeated, and welding. */
 #include "hash.h"
 #include "mesh.h"
+#include "rig.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -98,6 +99,7 @@ static limn_bake_status weld_positions(limni_context *context, limni_source *sou
                                 source->position_numbers));
     for (uint32_t p = 0; p < source->position_count && source->position_lines; p++)
         source->position_lines[p] = source->position_lines[source->position_numbers[p]];
+    limni_rig_keep(&source->rig, source->position_numbers, source->position_count);
     follow(source, moved);
     if (source->position_count < count)
         limni_note(context, "%s: repaired: %u control points welded into others", file_of(source),
@@ -209,6 +211,7 @@ static void keep_face(limni_source *source, uint32_t first, uint32_t size, uint3
     move_corners(source, offset, first, size);
     source->face_offsets[kept + 1] = offset + size;
     if (source->face_lines) source->face_lines[kept] = source->face_lines[face];
+    if (source->face_materials) source->face_materials[kept] = source->face_materials[face];
     source->face_numbers[kept] = face;
 }
 

@@ -23,6 +23,7 @@ typedef struct limni_mesh {
     const uint32_t *control_lines;   ///< of the source, or NULL
     const uint32_t *face_numbers;    ///< by polygon, as read, from 0
     const uint32_t *face_lines;      ///< by polygon, or NULL
+    const uint32_t *face_materials;  ///< by polygon, or NULL: see limni_source
     uint32_t index_base;
     limn_domain_kind domain; ///< what faces become patches of; polygons other than quads are
                              ///< divided first

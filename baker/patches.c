@@ -69,65 +69,109 @@ static limn_bake_status assign_classes(limni_context *context, arrangement *a) {
 
 // ---- Runs
 
-static void fill_runs(const limni_classes *classes, const uint32_t *counts,
-                      limni_patches *patches) {
-    uint64_t patch = 0, index = 0, slot = 0;
-    limn_file_run *run = patches->runs;
-    for (uint32_t c = 0; c < classes->count; c++) {
-        if (counts[c] == 0) continue;
-        const limn_file_class record = limni_class_record(&classes->items[c]);
-        const uint32_t slot_size = limn_file_slot_size(&record);
-        slot += slot % slot_size;
-        *run++ = (limn_file_run){
-            .class_index = c,
-            .first_patch = (uint32_t)patch,
-            .patch_count = counts[c],
-            .first_index = index,
-            .first_slot = slot,
-        };
-        const uint64_t count = (uint64_t)counts[c] * classes->items[c].control_count;
-        patch += counts[c];
-        index += count;
-        slot += count * slot_size;
+/// The material of a face, and 1; 0 where nothing is said.
+static uint32_t material_key(const arrangement *a, uint32_t face) {
+    const uint32_t *const materials = a->base->source->face_materials;
+    return materials ? materials[a->mesh->polygons[face]] + 1 : 0; // LIMN_FORMAT_NONE + 1 is 0
+}
+
+/// Orders faces by their keys, those with the same key as they are.
+///
+/// keys  by face, below key_count
+static limn_bake_status sort_faces(limni_context *context, const uint32_t *keys, uint32_t key_count,
+                                   uint32_t *faces, uint32_t count) {
+    uint32_t *const next = limni_allocate_zeroed(context, (size_t)key_count + 1, sizeof *next);
+    uint32_t *const sorted = limni_allocate(context, count, sizeof *sorted);
+    if (!next || !sorted) return LIMN_BAKE_MEMORY;
+    for (uint32_t f = 0; f < count; f++)
+        next[keys[faces[f]] + 1]++;
+    for (uint32_t key = 0; key < key_count; key++)
+        next[key + 1] += next[key];
+    for (uint32_t f = 0; f < count; f++)
+        sorted[next[keys[faces[f]]]++] = faces[f];
+    memcpy(faces, sorted, count * sizeof *faces);
+    limni_release(context, next);
+    limni_release(context, sorted);
+    return LIMN_BAKE_OK;
+}
+
+/// Orders the faces by material, class, and number. Their rotations are added later.
+static limn_bake_status order_faces(limni_context *context, const arrangement *a,
+                                    limni_patches *patches) {
+    const limni_mesh *const mesh = a->mesh;
+    uint32_t count = 0, material_count = 0;
+    uint32_t *const materials = limni_allocate(context, mesh->face_count, sizeof *materials);
+    patches->faces = limni_allocate(context, patches->record.patch_count, sizeof *patches->faces);
+    if (!materials || !patches->faces) return LIMN_BAKE_MEMORY;
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        materials[face] = material_key(a, face);
+        if (materials[face] >= material_count) material_count = materials[face] + 1;
+        if (!mesh->holes[face]) patches->faces[count++] = face;
     }
-    patches->record.index_count = index;
-    patches->slots_size = slot;
+    LIMNI_TRY(sort_faces(context, a->class_indices, a->classes->count, patches->faces, count));
+    if (material_count > 1)
+        LIMNI_TRY(sort_faces(context, materials, material_count, patches->faces, count));
+    limni_release(context, materials);
+    return LIMN_BAKE_OK;
+}
+
+/// Whether a run begins with the p-th of the ordered faces.
+static bool begins_run(const arrangement *a, const uint32_t *faces, uint32_t p) {
+    return p == 0 || a->class_indices[faces[p]] != a->class_indices[faces[p - 1]] ||
+           material_key(a, faces[p]) != material_key(a, faces[p - 1]);
 }
 
 static limn_bake_status make_runs(limni_context *context, const arrangement *a,
                                   limni_patches *patches) {
-    const limni_mesh *const mesh = a->mesh;
-    const limni_classes *const classes = a->classes;
-    uint32_t *const counts = limni_allocate_zeroed(context, classes->count, sizeof *counts);
-    if (!counts) return LIMN_BAKE_MEMORY;
-    for (uint32_t face = 0; face < mesh->face_count; face++) {
-        if (!mesh->holes[face]) counts[a->class_indices[face]]++;
-    }
-    for (uint32_t c = 0; c < classes->count; c++)
-        patches->record.run_count += counts[c] != 0;
+    const uint32_t patch_count = patches->record.patch_count;
+    for (uint32_t p = 0; p < patch_count; p++)
+        patches->record.run_count += begins_run(a, patches->faces, p);
     patches->runs =
         limni_allocate_zeroed(context, patches->record.run_count, sizeof *patches->runs);
     if (!patches->runs) return LIMN_BAKE_MEMORY;
-    fill_runs(classes, counts, patches);
-    limni_release(context, counts);
+    limn_file_run *run = patches->runs;
+    for (uint32_t p = 0; p < patch_count; p++) {
+        const uint32_t class_index = a->class_indices[patches->faces[p]];
+        const limni_class *const class = &a->classes->items[class_index];
+        const limn_file_class record = limni_class_record(class);
+        const uint32_t slot_size = limn_file_slot_size(&record);
+        if (begins_run(a, patches->faces, p)) {
+            patches->slots_size += patches->slots_size % slot_size;
+            *run++ = (limn_file_run){.class_index = class_index,
+                                     .first_patch = p,
+                                     .first_index = patches->record.index_count,
+                                     .first_slot = patches->slots_size};
+        }
+        run[-1].patch_count++;
+        patches->record.index_count += class->control_count;
+        patches->slots_size += class->control_count * slot_size;
+    }
     return LIMN_BAKE_OK;
 }
 
-/// Orders the faces by class, and by number within a class.
-static limn_bake_status order_faces(limni_context *context, const arrangement *a,
+/// Where each material begins and ends, if there is one.
+static limn_bake_status list_ranges(limni_context *context, const arrangement *a,
                                     limni_patches *patches) {
-    const limni_mesh *const mesh = a->mesh;
-    uint32_t *const next = limni_allocate(context, a->classes->count, sizeof *next);
-    patches->faces = limni_allocate(context, patches->record.patch_count, sizeof *patches->faces);
-    if (!next || !patches->faces) return LIMN_BAKE_MEMORY;
-    for (uint32_t r = 0; r < patches->record.run_count; r++)
-        next[patches->runs[r].class_index] = patches->runs[r].first_patch;
-    for (uint32_t face = 0; face < mesh->face_count; face++) {
-        if (mesh->holes[face]) continue;
-        patches->faces[next[a->class_indices[face]]++] = face << 2 | a->assigned.rotations[face];
+    const uint32_t patch_count = patches->record.patch_count;
+    const uint32_t *const faces = patches->faces;
+    if (patch_count == 0 || material_key(a, faces[patch_count - 1]) == 0) return LIMN_BAKE_OK;
+    patches->ranges = limni_allocate(context, patch_count, sizeof *patches->ranges);
+    if (!patches->ranges) return LIMN_BAKE_MEMORY;
+    for (uint32_t p = 0; p < patch_count; p++) {
+        const uint32_t key = material_key(a, faces[p]);
+        if (p == 0 || key != material_key(a, faces[p - 1]))
+            patches->ranges[patches->range_count++] = (limn_file_range){key - 1, p, 0};
+        patches->ranges[patches->range_count - 1].patch_count++;
     }
-    limni_release(context, next);
     return LIMN_BAKE_OK;
+}
+
+/// What the file says of the ordered faces.
+static void add_rotations(const arrangement *a, limni_patches *patches) {
+    for (uint32_t p = 0; p < patches->record.patch_count; p++) {
+        const uint32_t face = patches->faces[p];
+        patches->faces[p] = face << 2 | a->assigned.rotations[face];
+    }
 }
 
 // ---- Control lists
@@ -355,8 +399,10 @@ limn_bake_status limni_patches_build(limni_context *context, const limni_base *b
         .base = base, .mesh = mesh, .rules = rules, .classes = classes, .pieces = pieces};
     LIMNI_TRY(begin_arrangement(context, &a));
     LIMNI_TRY(assign_classes(context, &a));
-    LIMNI_TRY(make_runs(context, &a, patches));
     LIMNI_TRY(order_faces(context, &a, patches));
+    LIMNI_TRY(make_runs(context, &a, patches));
+    LIMNI_TRY(list_ranges(context, &a, patches));
+    add_rotations(&a, patches);
     LIMNI_TRY(list_controls(context, &a, patches));
     LIMNI_TRY(list_creases(context, mesh, base->sharpness, patches));
     LIMNI_TRY(make_normals(context, base, rules, patches));

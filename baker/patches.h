@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* The patches of one mesh, ordered by class and ready to be written. */
+/* The patches of one mesh, ordered by material and class, and ready to be written. */
 #ifndef LIMNI_PATCHES_H
 #define LIMNI_PATCHES_H
 
 #include "base.h"
 #include "control_normals.h"
 #include "isolation.h"
+#include "rig.h"
 
 /// Bytes of a mesh baked alone, without control points and their normals.
 typedef struct limni_footprint {
@@ -30,7 +31,10 @@ typedef struct limni_patches {
     uint8_t *creases;              ///< [patch_count] bit e: edge e stays sharp; NULL: none does
     limni_control_normals normals; ///< empty without normals
     uint32_t
-        *corner_normals; ///< [patch_count][corner_count] by its corners; NULL: its control points
+        *corner_normals;   ///< [patch_count][corner_count] by its corners; NULL: its control points
+    limni_control_rig rig; ///< empty, unless the source has one
+    limn_file_range *ranges; ///< [range_count] of materials; NULL: nothing is said of them
+    uint32_t range_count;
 } limni_patches;
 
 /// All but the errors of edges: classifies every face of a base mesh and lists its patches; adds the

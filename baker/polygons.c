@@ -70,6 +70,7 @@ limn_bake_status limni_make_faces(limni_context *context, const limni_source *so
         .control_numbers = source->position_numbers,
         .control_lines = source->position_lines,
         .face_lines = source->face_lines,
+        .face_materials = source->face_materials,
         .face_numbers = source->face_numbers,
         .index_base = source->index_base,
         .domain = domain,

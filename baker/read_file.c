@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #define _FILE_OFFSET_BITS 64
 
-#include "source.h"
+#include "scene.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -102,20 +102,48 @@ static limn_bake_status load(limni_context *context, const char *path, size_t si
     return LIMN_BAKE_OK;
 }
 
-limn_bake_status limni_read_file(limni_context *context, const char *path, limni_source *source) {
-    *source = (limni_source){0};
+static bool is_gltf(const char *path) {
+    return limni_has_extension(path, ".gltf") || limni_has_extension(path, ".glb");
+}
+
+/// One source, but of glTF as many as there are meshes.
+static limn_bake_status read_text(limni_context *context, const char *text, size_t size,
+                                  read_text_fn *read, const limni_source *named,
+                                  limni_scene *scene) {
+    if (!read) return limni_read_gltf(context, named->path, named->name, text, size, scene);
+    scene->source_count = 1;
+    scene->sources = limni_allocate(context, 1, sizeof *scene->sources);
+    if (!scene->sources) return LIMN_BAKE_MEMORY;
+    scene->sources[0] = *named;
+    return read(context, text, size, scene->sources);
+}
+
+limn_bake_status limni_read_scene(limni_context *context, const char *path, limni_scene *scene) {
+    limni_source named = {0};
     size_t size = 0;
+    scene->source_count = 0;
     LIMNI_TRY(find_size(context, path, &size));
-    read_text_fn *read = find_reader(path);
-    if (!read) {
+    read_text_fn *const read = find_reader(path);
+    if (!read && !is_gltf(path))
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                          "%s: unknown kind of file; .obj, .off and .ply are read", path);
-    }
-    LIMNI_TRY(name_source(context, path, source));
-    char *text = limni_allocate(context, size + 1, 1);
+                          "%s: unknown kind of file; .obj, .off, .ply, .gltf and .glb are read",
+                          path);
+    LIMNI_TRY(name_source(context, path, &named));
+    char *const text = limni_allocate(context, size + 1, 1);
     if (!text) return LIMN_BAKE_MEMORY;
     LIMNI_TRY(load(context, path, size, text));
-    LIMNI_TRY(read(context, text, size, source));
+    LIMNI_TRY(read_text(context, text, size, read, &named, scene));
     limni_release(context, text);
+    return LIMN_BAKE_OK;
+}
+
+limn_bake_status limni_read_file(limni_context *context, const char *path, limni_source *source) {
+    limni_character character = {0};
+    limni_scene scene = {.character = &character};
+    LIMNI_TRY(limni_read_scene(context, path, &scene));
+    if (scene.source_count > 1)
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: it has %u meshes, and one is needed",
+                          path, scene.source_count);
+    *source = scene.sources[0];
     return LIMN_BAKE_OK;
 }

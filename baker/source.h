@@ -4,6 +4,7 @@
 #define LIMNI_SOURCE_H
 
 #include "context.h"
+#include "limn/format.h"
 
 /// Sharpness is not negative; from LIMNI_SHARP_FOR_EVER on, infinity included, it does not fall.
 /// Vertices and faces are numbered from 0 as read, and need not be there. `line` is from 1; 0 for a
@@ -50,6 +51,16 @@ typedef struct limni_source_channel {
     uint32_t *corner_values; ///< parallel to face_corners, each < value_count
 } limni_source_channel;
 
+/// What moves the positions of a source, beside the program.
+typedef struct limni_rig {
+    uint32_t influence_count; ///< on each position; 0: no joints move them
+    uint16_t *joints;         ///< [position_count][influence_count] of the file's skeleton
+    float *weights;           ///< likewise; as limn_skin_normalise() leaves them
+    uint32_t target_count;
+    limn_file_target *targets; ///< [target_count]
+    float (*deltas)[3];        ///< [position_count][target_count]
+} limni_rig;
+
 typedef struct limni_source {
     uint32_t index_base;        ///< of the file's own numbering, for messages: 1 in OBJ, else 0
     const char *name;           ///< of the mesh: the file's name without folder and extension
@@ -65,13 +76,15 @@ typedef struct limni_source {
     uint32_t *face_corners;         ///< position indices from 0, each < position_count
     uint32_t *face_numbers;         ///< [face_count] as read, from 0, set when faces are checked
     uint32_t *face_lines;           ///< [face_count], from 1; NULL likewise
+    uint32_t *face_materials;       ///< [face_count] of the file, or LIMN_FORMAT_NONE; NULL: none
     limni_source_channel *channels; ///< [channel_count]
     uint32_t channel_count;
+    limni_rig rig;
     limni_tags tags;
 } limni_source;
 
-/// Reads a mesh file by its extension, .obj, .off or .ply (in any case). The arrays belong to the
-/// context.
+/// Reads the mesh of a file by its extension, .obj, .off, .ply, .gltf or .glb (in any case). Fails
+/// where there are several. The arrays belong to the context.
 limn_bake_status limni_read_file(limni_context *context, const char *path, limni_source *source);
 
 /// Makes values that are equal the same, each the first of them, and 0 of -0.

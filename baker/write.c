@@ -6,6 +6,7 @@
  */
 #include "write.h"
 
+#include "../runtime/character.h"
 #include "../runtime/checksum.h"
 #include "limn/limn.h"
 #include "scheme.h"
@@ -19,7 +20,9 @@ enum {
     CHUNKS_OF_MESH = 8,
     CHUNKS_OF_NORMALS = 3,
     CHUNKS_OF_CREASES = 3,
-    CHUNKS_OF_POINTS = 2
+    CHUNKS_OF_POINTS = 2,
+    CHUNKS_OF_CHARACTER = 8,
+    CHUNKS_OF_RIG = 7
 };
 
 /// A chunk that is to be written.
@@ -86,6 +89,54 @@ static void list_normals(const limni_patches *mesh, uint32_t m, part *parts, uin
     add_part(parts, count, LIMN_CHUNK_CORNERS, m, mesh->corner_normals,
              (uint64_t)limni_corner_count(mesh) * mesh->record.patch_count *
                  sizeof *mesh->corner_normals);
+}
+
+// ---- Characters
+
+static void list_rig(const limni_patches *mesh, uint32_t m, part *parts, uint32_t *count) {
+    const limni_control_rig *const rig = &mesh->rig;
+    const uint64_t influences = (uint64_t)mesh->record.control_count * rig->influence_count;
+    if (rig->influence_count) {
+        add_part(parts, count, LIMN_CHUNK_JOINTS, m, rig->joints, influences * sizeof *rig->joints);
+        add_part(parts, count, LIMN_CHUNK_INFLUENCES, m, rig->weights,
+                 influences * sizeof *rig->weights);
+    }
+    if (rig->target_count) {
+        const uint64_t entries = rig->first[rig->target_count];
+        add_part(parts, count, LIMN_CHUNK_TARGETS, m, rig->targets,
+                 rig->target_count * sizeof *rig->targets);
+        add_part(parts, count, LIMN_CHUNK_TARGET_FIRST, m, rig->first,
+                 (1 + (uint64_t)rig->target_count) * sizeof *rig->first);
+        add_part(parts, count, LIMN_CHUNK_TARGET_POINTS, m, rig->points,
+                 entries * sizeof *rig->points);
+        add_part(parts, count, LIMN_CHUNK_TARGET_DELTAS, m, rig->deltas,
+                 entries * sizeof *rig->deltas);
+    }
+    if (mesh->range_count)
+        add_part(parts, count, LIMN_CHUNK_RANGES, m, mesh->ranges,
+                 mesh->range_count * sizeof *mesh->ranges);
+}
+
+static void list_character(const limni_character *character, part *parts, uint32_t *count) {
+    const struct {
+        uint32_t kind;
+        const limni_list *list;
+        size_t size;
+    } chunks[CHUNKS_OF_CHARACTER] = {
+        {LIMN_CHUNK_STRINGS, &character->strings, 1},
+        {LIMN_CHUNK_SKELETON, &character->joints, sizeof(limn_file_joint)},
+        {LIMN_CHUNK_CLIPS, &character->clips, sizeof(limn_file_clip)},
+        {LIMN_CHUNK_TRACKS, &character->tracks, sizeof(limn_file_track)},
+        {LIMN_CHUNK_KEYS, &character->keys, sizeof(float)},
+        {LIMN_CHUNK_MATERIALS, &character->materials, sizeof(limn_file_material)},
+        {LIMN_CHUNK_IMAGES, &character->images, sizeof(limn_file_image)},
+        {LIMN_CHUNK_IMAGE_BYTES, &character->image_bytes, 1},
+    };
+    for (uint32_t c = 0; c < CHUNKS_OF_CHARACTER; c++) {
+        if (chunks[c].list->count)
+            add_part(parts, count, chunks[c].kind, LIMN_FORMAT_NO_MESH, chunks[c].list->items,
+                     chunks[c].list->count * (uint64_t)chunks[c].size);
+    }
 }
 
 static uint64_t align(uint64_t offset) {
@@ -157,6 +208,12 @@ static void copy_tables(const shared *s, unsigned char *dst) {
                limni_class_table_size(&s->pieces->items[p]));
 }
 
+/// A reader may pass over characters.
+static uint32_t flags_of(const part *p) {
+    const limn_file_chunk chunk = {.kind = p->kind, .mesh = p->mesh};
+    return limni_is_character_chunk(&chunk) ? 0 : LIMN_CHUNK_REQUIRED;
+}
+
 /// Places the parts behind the directory. Returns the size of the file.
 static uint64_t place_parts(const part *parts, uint32_t count, limn_file_chunk *directory) {
     uint64_t offset = sizeof(limn_file_header) + (uint64_t)count * sizeof *directory;
@@ -165,7 +222,7 @@ static uint64_t place_parts(const part *parts, uint32_t count, limn_file_chunk *
         directory[p] = (limn_file_chunk){
             .kind = parts[p].kind,
             .mesh = parts[p].mesh,
-            .flags = LIMN_CHUNK_REQUIRED,
+            .flags = flags_of(&parts[p]),
             .offset = offset,
             .size = parts[p].size,
         };
@@ -267,11 +324,12 @@ static void describe(const limni_rules *rules, const limni_patches *meshes, uint
 limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rules,
                                   const limni_classes *classes, const limni_classes *pieces,
                                   const limni_patches *meshes, uint32_t mesh_count,
-                                  unsigned char **blob, size_t *blob_size) {
+                                  const limni_character *character, unsigned char **blob,
+                                  size_t *blob_size) {
     const bool with_normals = rules->normals == LIMN_NORMALS_EXACT;
     const uint32_t per_mesh =
-        CHUNKS_OF_MESH + CHUNKS_OF_NORMALS + CHUNKS_OF_CREASES + CHUNKS_OF_POINTS;
-    const uint32_t room = CHUNKS_OF_FILE + per_mesh * mesh_count;
+        CHUNKS_OF_MESH + CHUNKS_OF_NORMALS + CHUNKS_OF_CREASES + CHUNKS_OF_POINTS + CHUNKS_OF_RIG;
+    const uint32_t room = CHUNKS_OF_FILE + CHUNKS_OF_CHARACTER + per_mesh * mesh_count;
     part *const parts = limni_allocate(context, room, sizeof *parts);
     limn_file_chunk *const directory = limni_allocate(context, room, sizeof *directory);
     shared all = {.classes = classes, .pieces = pieces};
@@ -283,9 +341,11 @@ limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rul
     uint32_t part_count = 0;
     describe(rules, meshes, mesh_count, info, sizeof info);
     list_shared(&all, info, parts, &part_count);
+    list_character(character, parts, &part_count);
     for (uint32_t m = 0; m < mesh_count; m++) {
         list_mesh(&meshes[m], m, parts, &part_count);
         if (with_normals) list_normals(&meshes[m], m, parts, &part_count);
+        list_rig(&meshes[m], m, parts, &part_count);
     }
     qsort(parts, part_count, sizeof *parts, compare_parts);
 

@@ -2,12 +2,14 @@
 #ifndef LIMNI_WRITE_H
 #define LIMNI_WRITE_H
 
+#include "character.h"
 #include "patches.h"
 
 /// Lays out a whole .limn file in memory. The blob belongs to the context, 64-byte aligned.
 limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rules,
                                   const limni_classes *classes, const limni_classes *pieces,
                                   const limni_patches *meshes, uint32_t mesh_count,
-                                  unsigned char **blob, size_t *blob_size);
+                                  const limni_character *character, unsigned char **blob,
+                                  size_t *blob_size);
 
 #endif

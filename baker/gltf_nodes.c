@@ -1,0 +1,259 @@
+/* SPDX-License-Identifier: MIT */
+/* The tree of nodes: order, places at rest, and what moves. */
+#include "gltf_reader.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *limni_gltf_name(limni_gltf_label text, const char *what, uint32_t index,
+                            const char *name) {
+    if (name[0])
+        snprintf(text, sizeof(limni_gltf_label), "%s %u '%.60s'", what, index, name);
+    else
+        snprintf(text, sizeof(limni_gltf_label), "%s %u", what, index);
+    return text;
+}
+
+// ---- Transforms
+
+limni_transform limni_transform_multiply(const limni_transform *a, const limni_transform *b) {
+    limni_transform t;
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 4; column++)
+            t.rows[row][column] =
+                a->rows[row][0] * b->rows[0][column] + a->rows[row][1] * b->rows[1][column] +
+                a->rows[row][2] * b->rows[2][column] + (column == 3 ? a->rows[row][3] : 0);
+    }
+    return t;
+}
+
+limni_transform limni_gltf_local(const limni_gltf_node *node) {
+    limni_transform t;
+    if (node->has_matrix) {
+        for (int i = 0; i < 12; i++)
+            t.rows[i % 3][i / 3] = node->matrix[4 * (i / 3) + i % 3];
+        return t;
+    }
+    const double *const q = node->rotation;
+    const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    const double s = length > 0 ? 1 / length : 0;
+    const double x = q[0] * s, y = q[1] * s, z = q[2] * s, w = length > 0 ? q[3] * s : 1;
+    const double turned[3][3] = {
+        {1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+        {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+        {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++)
+            t.rows[row][column] = turned[row][column] * node->scale[column];
+        t.rows[row][3] = node->translation[row];
+    }
+    return t;
+}
+
+/// The cofactors of the linear part: column `column` of its inverse, but for the determinant.
+static void cross(const double a[4], const double b[4], double out[3]) {
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static double length_of(const double v[3]) {
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+double limni_transform_determinant(const limni_transform *t) {
+    double product[3];
+    cross(t->rows[1], t->rows[2], product);
+    return t->rows[0][0] * product[0] + t->rows[0][1] * product[1] + t->rows[0][2] * product[2];
+}
+
+bool limni_transform_invert(const limni_transform *t, limni_transform *inverse) {
+    const double determinant = limni_transform_determinant(t);
+    double size = 1;
+    for (int row = 0; row < 3; row++)
+        size *= length_of(t->rows[row]);
+    if (!(fabs(determinant) > 1e-9 * size)) return false;
+    for (int column = 0; column < 3; column++) {
+        double cofactors[3];
+        cross(t->rows[(column + 1) % 3], t->rows[(column + 2) % 3], cofactors);
+        for (int row = 0; row < 3; row++)
+            inverse->rows[row][column] = cofactors[row] / determinant;
+    }
+    for (int row = 0; row < 3; row++)
+        inverse->rows[row][3] =
+            -(inverse->rows[row][0] * t->rows[0][3] + inverse->rows[row][1] * t->rows[1][3] +
+              inverse->rows[row][2] * t->rows[2][3]);
+    return true;
+}
+
+/// Of a rotation matrix, from the largest of its components (Shepperd).
+static void to_quaternion(const double m[3][3], double q[4]) {
+    const double trace = m[0][0] + m[1][1] + m[2][2];
+    int largest = 3;
+    for (int i = 0; i < 3; i++) {
+        if (m[i][i] > (largest == 3 ? trace : m[largest][largest])) largest = i;
+    }
+    if (largest == 3) {
+        for (int i = 0; i < 3; i++)
+            q[i] = m[(i + 2) % 3][(i + 1) % 3] - m[(i + 1) % 3][(i + 2) % 3];
+        q[3] = 1 + trace;
+    } else {
+        const int i = largest, j = (i + 1) % 3, k = (i + 2) % 3;
+        q[i] = 1 + m[i][i] - m[j][j] - m[k][k];
+        q[j] = m[j][i] + m[i][j];
+        q[k] = m[k][i] + m[i][k];
+        q[3] = m[k][j] - m[j][k];
+    }
+    const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (int i = 0; i < 4; i++)
+        q[i] /= length;
+}
+
+bool limni_transform_decompose(const limni_transform *t, double translation[3], double rotation[4],
+                               double scale[3]) {
+    double turned[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, shear = 0;
+    const bool mirrors = limni_transform_determinant(t) < 0;
+    for (int column = 0; column < 3; column++) {
+        double axis[3];
+        for (int row = 0; row < 3; row++)
+            axis[row] = t->rows[row][column];
+        translation[column] = t->rows[column][3];
+        scale[column] = length_of(axis) * (mirrors && column == 0 ? -1 : 1);
+    }
+    const bool flat = scale[0] == 0 || scale[1] == 0 || scale[2] == 0;
+    for (int i = 0; i < 9 && !flat; i++)
+        turned[i / 3][i % 3] = t->rows[i / 3][i % 3] / scale[i % 3];
+    for (int column = 0; column < 3; column++) {
+        const int other = (column + 1) % 3;
+        double product = 0;
+        for (int row = 0; row < 3; row++)
+            product += turned[row][column] * turned[row][other];
+        shear = fmax(shear, fabs(product));
+    }
+    to_quaternion((const double(*)[3])turned, rotation);
+    return shear < 1e-4;
+}
+
+bool limni_transform_round(const limni_transform *t, float rows[3][4]) {
+    bool finite = true;
+    for (int i = 0; i < 12; i++) {
+        rows[i / 4][i % 4] = (float)t->rows[i / 4][i % 4];
+        finite &= isfinite(rows[i / 4][i % 4]) != 0;
+    }
+    return finite;
+}
+
+// ---- The tree
+
+static limn_bake_status refuse_node(const limni_gltf_reader *reader, uint32_t node,
+                                    const char *text) {
+    limni_gltf_label label;
+    return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT, "%s: %s: %s", reader->document->path,
+                      limni_gltf_name(label, "node", node, reader->document->nodes[node].name),
+                      text);
+}
+
+static limn_bake_status find_parents(limni_gltf_reader *reader) {
+    const limni_gltf *const document = reader->document;
+    for (uint32_t n = 0; n < document->node_count; n++) {
+        const limni_gltf_node *const node = &document->nodes[n];
+        for (uint32_t c = 0; c < node->child_count; c++) {
+            const int child = node->children[c];
+            if (child < 0 || (uint32_t)child >= document->node_count)
+                return refuse_node(reader, n, "it has a child that does not exist");
+            if (reader->places[child].parent != LIMN_FORMAT_NONE)
+                return refuse_node(reader, (uint32_t)child, "it is a child of two nodes, or twice");
+            reader->places[child].parent = n;
+        }
+    }
+    return LIMN_BAKE_OK;
+}
+
+/// Depth first. Nodes that are their own ancestors are not met: nothing leads to them from a root.
+static limn_bake_status find_order(limni_gltf_reader *reader) {
+    const limni_gltf *const document = reader->document;
+    uint32_t *const waiting =
+        limni_allocate(reader->context, document->node_count, sizeof *waiting);
+    bool *const met = limni_allocate_zeroed(reader->context, document->node_count, sizeof *met);
+    if (!waiting || !met) return LIMN_BAKE_MEMORY;
+    uint32_t count = 0;
+    for (uint32_t root = 0; root < document->node_count; root++) {
+        if (reader->places[root].parent != LIMN_FORMAT_NONE) continue;
+        uint32_t waiting_count = 0;
+        waiting[waiting_count++] = root;
+        while (waiting_count) {
+            const uint32_t n = waiting[--waiting_count];
+            const limni_gltf_node *const node = &document->nodes[n];
+            reader->order[count++] = n;
+            met[n] = true;
+            for (uint32_t c = node->child_count; c-- > 0;)
+                waiting[waiting_count++] = (uint32_t)node->children[c];
+        }
+    }
+    for (uint32_t n = 0; n < document->node_count; n++) {
+        if (!met[n]) return refuse_node(reader, n, "it is its own ancestor, or hangs on one");
+    }
+    limni_release(reader->context, waiting);
+    limni_release(reader->context, met);
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status mark_scene(limni_gltf_reader *reader) {
+    const limni_gltf *const document = reader->document;
+    for (uint32_t r = 0; r < document->root_count; r++) {
+        const int root = document->roots[r];
+        if (root < 0 || (uint32_t)root >= document->node_count)
+            return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT,
+                              "%s: the scene has node %d, but there are %u", document->path, root,
+                              document->node_count);
+        reader->places[root].in_scene = true;
+    }
+    for (uint32_t n = 0; n < document->node_count && !document->has_scene; n++)
+        reader->places[n].in_scene = true;
+    return LIMN_BAKE_OK;
+}
+
+static void mark_moving(limni_gltf_reader *reader) {
+    const limni_gltf *const document = reader->document;
+    for (uint32_t a = 0; a < document->animation_count; a++) {
+        const limni_gltf_animation *const animation = &document->animations[a];
+        for (uint32_t c = 0; c < animation->channel_count; c++) {
+            const limni_gltf_channel *const channel = &animation->channels[c];
+            if (channel->node >= 0 && (uint32_t)channel->node < document->node_count &&
+                strcmp(channel->path, "weights") != 0)
+                reader->places[channel->node].moves = true;
+        }
+    }
+}
+
+limn_bake_status limni_gltf_read_nodes(limni_gltf_reader *reader) {
+    const limni_gltf *const document = reader->document;
+    const uint32_t count = document->node_count;
+    reader->places = limni_allocate_zeroed(reader->context, count, sizeof *reader->places);
+    reader->order = limni_allocate(reader->context, count, sizeof *reader->order);
+    if (!reader->places || !reader->order) return LIMN_BAKE_MEMORY;
+    for (uint32_t n = 0; n < count; n++)
+        reader->places[n].parent = reader->places[n].joint = reader->places[n].mesh =
+            LIMN_FORMAT_NONE;
+    LIMNI_TRY(find_parents(reader));
+    LIMNI_TRY(find_order(reader));
+    LIMNI_TRY(mark_scene(reader));
+    mark_moving(reader);
+    for (uint32_t o = 0; o < count; o++) {
+        limni_gltf_place *const place = &reader->places[reader->order[o]];
+        const limni_transform local = limni_gltf_local(&document->nodes[reader->order[o]]);
+        float rounded[3][4];
+        place->global = local;
+        if (place->parent != LIMN_FORMAT_NONE) {
+            const limni_gltf_place *const parent = &reader->places[place->parent];
+            place->global = limni_transform_multiply(&parent->global, &local);
+            place->in_scene |= parent->in_scene;
+            place->moves |= parent->moves;
+        }
+        if (!limni_transform_round(&place->global, rounded) ||
+            !limni_transform_round(&local, rounded))
+            return refuse_node(reader, reader->order[o], "its place is not finite");
+    }
+    return LIMN_BAKE_OK;
+}

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: MIT */
+/* glTF 2.0: meshes of triangles with what moves and colours them. docs/meshes.md says how. */
+#include "gltf_reader.h"
+
+#include <string.h>
+
+/// Whether meshes can be read without an extension that a file requires: it is about materials and
+/// light alone, or is how accessors are read anyway.
+static bool can_do_without(const char *extension) {
+    static const char *const prefixes[] = {"KHR_materials_", "KHR_texture_", "KHR_lights_",
+                                           "KHR_mesh_quantization"};
+    for (size_t p = 0; p < sizeof prefixes / sizeof *prefixes; p++) {
+        if (strncmp(extension, prefixes[p], strlen(prefixes[p])) == 0) return true;
+    }
+    return false;
+}
+
+static limn_bake_status check_extensions(const limni_gltf_reader *reader) {
+    const limni_gltf *const document = reader->document;
+    for (uint32_t e = 0; e < document->required_extension_count; e++) {
+        if (!can_do_without(document->required_extensions[e]))
+            return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT,
+                              "%s: it requires the extension %s, which is not read", document->path,
+                              document->required_extensions[e]);
+    }
+    for (uint32_t e = 0; e < document->extension_count; e++) {
+        if (strcmp(document->extensions[e], "KHR_mesh_quantization") != 0)
+            limni_note(reader->context, "%s: the extension %s is passed over", document->path,
+                       document->extensions[e]);
+    }
+    return LIMN_BAKE_OK;
+}
+
+static uint32_t *make_indices(limni_context *context, uint32_t count) {
+    uint32_t *const indices = limni_allocate(context, count, sizeof *indices);
+    if (indices) memset(indices, 0xff, count * sizeof *indices);
+    return indices;
+}
+
+static limn_bake_status read(limni_gltf_reader *reader) {
+    const limni_gltf *const document = reader->document;
+    LIMNI_TRY(check_extensions(reader));
+    reader->materials = make_indices(reader->context, document->material_count);
+    reader->images = make_indices(reader->context, document->image_count);
+    if (!reader->materials || !reader->images) return LIMN_BAKE_MEMORY;
+    LIMNI_TRY(limni_gltf_read_nodes(reader));
+    LIMNI_TRY(limni_gltf_read_skeleton(reader));
+    LIMNI_TRY(limni_gltf_read_meshes(reader));
+    if (reader->scene->source_count == 0)
+        return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT,
+                          "%s: its scene has no mesh of triangles", document->path);
+    return limni_gltf_read_clips(reader);
+}
+
+limn_bake_status limni_read_gltf(limni_context *context, const char *path, const char *name,
+                                 const char *bytes, size_t size, limni_scene *scene) {
+    limni_gltf document;
+    LIMNI_TRY(limni_gltf_parse(context, path, bytes, size, &document));
+    limni_gltf_reader reader = {
+        .context = context, .document = &document, .file_name = name, .scene = scene};
+    return read(&reader);
+}
