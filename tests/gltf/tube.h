@@ -52,11 +52,12 @@ static inline void tube_add_wall(glb *file, char *primitive, size_t room) {
         tube_point(0, c, deltas[c]);
     }
     char sparse[256];
+    const int points = glb_view(file, moved, sizeof moved);
+    const int movements = glb_view(file, deltas, sizeof deltas);
     snprintf(sparse, sizeof sparse,
              ",\"sparse\":{\"count\":%d,\"indices\":{\"bufferView\":%d,\"componentType\":5123},"
              "\"values\":{\"bufferView\":%d}}",
-             TUBE_COLUMNS, glb_view(file, moved, sizeof moved),
-             glb_view(file, deltas, sizeof deltas));
+             TUBE_COLUMNS, points, movements);
     const int target =
         glb_accessor(file, "wall target", NULL, 0, 5126, "VEC3", TUBE_VERTICES, sparse);
     const int position = glb_floats(file, "wall positions", positions[0], "VEC3", 3, TUBE_VERTICES);

@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Broken glTF is refused, or mended with a note, and the words name what is broken. Each case
+ * changes the good scene of tube.h in one place.
+ */
+#include "../../baker/scene.h"
+#include "check.h"
+#include "tube.h"
+
+typedef struct outcome {
+    limn_bake_status status;
+    char error[1024], notes[8192];
+    uint32_t source_count, influence_count, position_count;
+} outcome;
+
+static void keep_note(void *user, const char *text) {
+    outcome *const o = user;
+    glb_append(o->notes, sizeof o->notes, "%s\n", text);
+}
+
+static outcome read_bytes(const unsigned char *bytes, size_t size) {
+    outcome o = {0};
+    limni_character character = {0};
+    limni_context context = {.desc = {.note = keep_note, .user = &o, .images = true}};
+    limni_scene scene = {.character = &character};
+    char *const copy = malloc(size + 1); // exactly as large, for the address sanitizer
+    memcpy(copy, bytes, size);
+    copy[size] = '\0';
+    o.status = limni_read_gltf(&context, "a.glb", "a", copy, size, &scene);
+    free(copy);
+    memcpy(o.error, context.error, sizeof o.error);
+    if (o.status == LIMN_BAKE_OK) {
+        o.source_count = scene.source_count;
+        o.influence_count = scene.sources[0].rig.influence_count;
+        o.position_count = scene.sources[0].position_count;
+    }
+    limni_release_all(&context);
+    return o;
+}
+
+/// The scene with one text of its JSON in the place of another, which is there.
+static outcome read_changed(glb *file, const char *from, const char *to) {
+    static char json[1 << 16], changed[1 << 16];
+    size_t size;
+    glb_json(file, json, sizeof json);
+    const char *const at = strstr(json, from);
+    if (!CHECK(at != NULL)) {
+        fprintf(stderr, "    %s\n", from);
+        return (outcome){0};
+    }
+    snprintf(changed, sizeof changed, "%.*s%s%s", (int)(at - json), json, to, at + strlen(from));
+    unsigned char *const bytes = glb_make(changed, file->bytes, file->size, &size);
+    const outcome o = read_bytes(bytes, size);
+    free(bytes);
+    return o;
+}
+
+/// A change, and the words of the error.
+typedef struct refusal {
+    const char *from, *to, *error;
+} refusal;
+
+static const refusal refusals[] = {
+    // The document
+    {"\"version\":\"2.0\"", "\"version\":\"1.0\"", "a.glb: glTF version '1.0', but only 2 is read"},
+    {"\"asset\":", "\"asset\"", "a.glb: not good glTF: "},
+    {"\"scene\":0", "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"],\"scene\":0",
+     "it requires the extension KHR_draco_mesh_compression"},
+    // Accessors
+    {"\"name\":\"wall positions\",\"bufferView\":", "\"name\":\"wall positions\",\"bufferView\":9",
+     "accessor 1 'wall positions' (POSITION of mesh 0 'tube', primitive 0)"},
+    {"\"type\":\"VEC3\",\"count\":28", "\"type\":\"VEC3\",\"count\":2800000",
+     "accessor 0 'wall target' (POSITION of morph target 0 of mesh 0 'tube', primitive 0)"},
+    {"\"name\":\"wall joints\",\"bufferView\":4,\"componentType\":5121",
+     "\"name\":\"wall joints\",\"bufferView\":4,\"componentType\":5126",
+     "accessor 3 'wall joints' (JOINTS_0 of mesh 0 'tube', primitive 0): component type 5126"},
+    {"\"name\":\"wall joints\",\"bufferView\":4,\"componentType\":5121",
+     "\"name\":\"wall joints\",\"bufferView\":4,\"componentType\":5123",
+     "28 elements from byte 0 on reach beyond buffer view 4, which has 112 bytes"},
+    {"\"name\":\"wall uv\",\"bufferView\":3,",
+     "\"name\":\"wall uv\",\"bufferView\":3,\"byteOffset\":8,",
+     "28 elements from byte 8 on reach beyond buffer view 3, which has 224 bytes"},
+    {"\"name\":\"wall uv\",\"bufferView\":3,\"componentType\":5126,\"type\":\"VEC2\"",
+     "\"name\":\"wall uv\",\"bufferView\":3,\"componentType\":5126,\"type\":\"SCALAR\"",
+     "(TEXCOORD_0 of mesh 0 'tube', primitive 0): it has 1 components, but 2 are needed"},
+    {"\"type\":\"VEC4\",\"count\":28,\"normalized\":true", "\"type\":\"VEC4\",\"count\":27",
+     "accessor 4 'wall weights' (WEIGHTS_0 of mesh 0 'tube', primitive 0): it has 27 elements, but "
+     "28 are needed"},
+    {"\"count\":7,\"indices\"", "\"count\":70,\"indices\"", "70 sparse elements of 28"},
+    {"\"count\":7,\"indices\"", "\"count\":-7,\"indices\"", "sparse elements of 28"},
+    {"\"bufferView\":0,\"componentType\":5123},\"values\"",
+     "\"bufferView\":0,\"componentType\":5126},\"values\"",
+     "its sparse indices have component type"},
+    {"\"values\":{\"bufferView\":1}", "\"values\":{\"bufferView\":77}",
+     "there is no buffer view 77"},
+    {"\"byteLength\":14}", "\"byteLength\":140000}", "buffer view 0 reaches beyond buffer 0"},
+    {"{\"buffer\":0,\"byteOffset\":0,", "{\"buffer\":5,\"byteOffset\":0,", "there is no buffer 5"},
+    {"\"byteOffset\":0,\"byteLength\":14}", "\"byteOffset\":0,\"byteLength\":14,\"byteStride\":3}",
+     "byteStride"},
+    {"\"indices\":5,\"material\"", "\"indices\":3,\"material\"", "a.glb: "},
+    {"\"POSITION\":1,", "\"POSITION\":99,", "there is no accessor 99"},
+    // Meshes
+    {"\"material\":1,", "\"material\":7,", "material 7, but there are 2"},
+    {"\"targets\":[{\"POSITION\":10}]", "\"targets\":[]",
+     "mesh 0 'tube', primitive 1 has 0 morph targets, but mesh 0 'tube', primitive 0 has 1"},
+    {"[[0,1,2.5]", "[[0,1000,2.5]", "mesh 0 'tube': extras.limn: a crease has a vertex"},
+    {"[[0,1,2.5]", "[[0,1,-2.5]", "mesh 0 'tube': extras.limn: a crease has a negative sharpness"},
+    {"[[0,1,2.5]", "[[0,2.5]", "mesh 0 'tube': extras.limn: creases[0] is not 3 numbers"},
+    {"[[3,4]]", "[[0.5,4]]", "mesh 0 'tube': extras.limn: a corner is a vertex"},
+    {"edge-and-corner", "egde", "mesh 0 'tube': extras.limn: there is no such boundary rule"},
+    {"\"corners\"", "\"corner\"", "mesh 0 'tube': extras.limn: there is no 'corner'"},
+    // Nodes
+    {"\"mesh\":0,\"skin\":1", "\"mesh\":9,\"skin\":1", "node 4 'twin': it has mesh 9"},
+    {"\"mesh\":0,\"skin\":1", "\"mesh\":0,\"skin\":9", "node 4 'twin': it has skin 9"},
+    {"\"children\":[2]", "\"children\":[1]",
+     "node 1 'lower': it is a child of two nodes, or twice"},
+    {"\"children\":[2]", "\"children\":[0]", "node 0 'armature': it is its own ancestor"},
+    {"\"children\":[2]", "\"children\":[-2]", "node 1 'lower': it has a child that does not exist"},
+    {"\"nodes\":[0,3,4,5,7]", "\"nodes\":[0,33]", "the scene has node 33"},
+    {"\"translation\":[0,1.5,0]", "\"translation\":[0,1e300,0]",
+     "node 2 'upper': its place is not finite"},
+    // Skins and clips
+    {"\"joints\":[1,2],\"inverseBindMatrices\":12", "\"joints\":[1,22],\"inverseBindMatrices\":12",
+     "skin 1 'other': its joint 1 is node 22"},
+    {"\"joints\":[1,2],\"inverseBindMatrices\":12", "\"joints\":[1,2,0],\"inverseBindMatrices\":12",
+     "accessor 12 'other binds' (inverse bind matrices of skin 1 'other'): it has 2 elements, but "
+     "3"},
+    {"\"joints\":[1,2],\"inverseBindMatrices\":11", "\"joints\":[1],\"inverseBindMatrices\":11",
+     "mesh 0 'tube', primitive 0: vertex 7 names joint 1, but its skin has 1"},
+    {"\"joints\":[1,2],\"inverseBindMatrices\":12", "\"joints\":[],\"inverseBindMatrices\":12",
+     "skin 1 'other' has no joints"},
+    {"\"CUBICSPLINE\"", "\"BEZIER\"", "animation 0 'bend', channel 2: its sampler does not exist"},
+    {"\"node\":2,\"path\"", "\"node\":22,\"path\"",
+     "animation 0 'bend', channel 1: there is no such"},
+    {"\"input\":16", "\"input\":17", "animation 0 'bend'"},
+};
+
+static void test_refusals(glb *file) {
+    for (size_t r = 0; r < sizeof refusals / sizeof *refusals; r++) {
+        const outcome o = read_changed(file, refusals[r].from, refusals[r].to);
+        if (!CHECK_EQUAL(o.status, LIMN_BAKE_BAD_INPUT) ||
+            !CHECK_CONTAINS(o.error, refusals[r].error))
+            fprintf(stderr, "    by %s\n", refusals[r].to);
+    }
+}
+
+// ---- Numbers
+
+/// The bytes of an accessor, found by their values.
+static void *find_bytes(glb *file, const void *values, size_t size) {
+    for (size_t at = 0; at + size <= file->size; at += 4) {
+        if (memcmp(file->bytes + at, values, size) == 0) return file->bytes + at;
+    }
+    CHECK(!"there");
+    return file->bytes;
+}
+
+static outcome read_with(const glb *good, const void *from, const void *to, size_t size) {
+    static glb file;
+    file = *good;
+    memcpy(find_bytes(&file, from, size), to, size);
+    return read_changed(&file, "\"scene\":0", "\"scene\":0");
+}
+
+static void expect_refusal(const outcome *o, const char *error) {
+    CHECK_EQUAL(o->status, LIMN_BAKE_BAD_INPUT);
+    CHECK_CONTAINS(o->error, error);
+}
+
+static void test_numbers(const glb *good) {
+    const float nan_matrix[4] = {1, 0, NAN, 0}, matrix[4] = {1, 0, 0, 0};
+    const float projective[4] = {0, 0, 0, 2}, last[4] = {0, -1.5f, 0, 1};
+    const float times[3] = {0.25f, 0.5f, 2}, backwards[3] = {0.25f, 0.25f, 2};
+    const float place[3] = {0, 3, 0}, far_place[3] = {0, INFINITY, 0};
+    const float lid[4] = {1, 0, 0, 0}, negative[4] = {1, -0.5f, 0, 0};
+    const uint16_t moved[4] = {14, 15, 16, 17}, twice[4] = {14, 14, 16, 17};
+    const uint16_t wall[3] = {0, 1, 8}, beyond[3] = {0, 1, 28};
+    outcome o = read_with(good, matrix, nan_matrix, sizeof matrix);
+    expect_refusal(&o, "is not finite");
+    o = read_with(good, last, projective, sizeof last);
+    expect_refusal(&o, "skin 0 'body': the last row of inverse bind matrix 1 is not 0, 0, 0, 1");
+    o = read_with(good, times, backwards, sizeof times);
+    expect_refusal(&o, "(animation 0 'bend', channel 3, times): time 1 is negative, or not after");
+    o = read_with(good, place, far_place, sizeof place);
+    expect_refusal(&o,
+                   "'lid positions' (POSITION of mesh 0 'tube', primitive 1): element 0 is not");
+    o = read_with(good, lid, negative, sizeof lid);
+    CHECK_EQUAL(o.status, LIMN_BAKE_BAD_INPUT);
+    o = read_with(good, moved, twice, sizeof moved);
+    expect_refusal(&o, "sparse index 1 is 14, of 28 elements");
+    o = read_with(good, wall, beyond, sizeof wall);
+    expect_refusal(&o,
+                   "(indices of mesh 0 'tube', primitive 0): element 2 is 28, but there are 28");
+}
+
+// ---- What is mended or passed over
+
+static void expect_note(const outcome *o, const char *note) {
+    CHECK_EQUAL(o->status, LIMN_BAKE_OK);
+    CHECK_TEXT(o->error, "");
+    CHECK_CONTAINS(o->notes, note);
+}
+
+static void test_mended(glb *file) {
+    const uint8_t first[4] = {255, 0, 0, 0}, none[4] = {0, 0, 0, 0}, half[4] = {100, 0, 0, 0};
+    static glb changed;
+    changed = *file;
+    memcpy(find_bytes(&changed, first, 4), none, 4); // both columns of the seam
+    outcome o = read_changed(&changed, "\"scene\":0", "\"scene\":0");
+    expect_note(&o, "mesh 0 'tube': mended: the weights of 1 vertices (the first is 0) are all 0");
+    CHECK_EQUAL(o.position_count, 25); // as the first joint has all of the weight there
+    changed = *file;
+    memcpy(find_bytes(&changed, first, 4), half, 4);
+    o = read_changed(&changed, "\"scene\":0", "\"scene\":0");
+    expect_note(&o, "mesh 0 'tube': mended: the weights of 1 vertices did not sum to 1");
+    o = read_changed(file, "\"mode\":6,", "\"mode\":1,");
+    expect_note(&o, "mesh 0 'tube', primitive 1: it has no triangles; it is passed over");
+    o = read_changed(file, "\"COLOR_0\":", "\"_TEMPERATURE\":");
+    expect_note(&o, "mesh 0 'tube', primitive 1: the attribute _TEMPERATURE is passed over");
+    o = read_changed(file, "\"scene\":0",
+                     "\"extensionsUsed\":[\"KHR_lights_punctual\"],\"scene\":0");
+    expect_note(&o, "the extension KHR_lights_punctual is passed over");
+    o = read_changed(file, "\"name\":\"upper\",", "\"name\":\"upper\",\"camera\":0,");
+    expect_note(&o, "node 2 'upper': its camera is passed over");
+    o = read_changed(file, "\"node\":6,\"path\"", "\"node\":7,\"path\"");
+    CHECK_EQUAL(o.status, LIMN_BAKE_OK); // the base turns instead
+    o = read_changed(file, "\"baseColorTexture\":{\"index\":0}",
+                     "\"baseColorTexture\":{\"index\":4}");
+    expect_note(&o, "material 0 'wall': its texture 4 has no image that is understood");
+    o = read_changed(file, "\"JOINTS_0\":7,", "");
+    expect_note(&o, "the weights of 8 vertices (the first is 28) are all 0");
+    CHECK_EQUAL(o.position_count, 31); // the ring below the lid moves otherwise
+    CHECK_CONTAINS(o.notes, "6 positions have the place of another and are kept apart");
+}
+
+/// Bytes that end anywhere are refused, or as good as whole.
+static void test_truncated(const glb *file) {
+    static char json[1 << 16];
+    size_t size;
+    glb_json(file, json, sizeof json);
+    unsigned char *const bytes = glb_make(json, file->bytes, file->size, &size);
+    for (size_t end = 0; end < size; end += end < 64 ? 1 : 97)
+        CHECK_EQUAL(read_bytes(bytes, end).status, LIMN_BAKE_BAD_INPUT);
+    CHECK_EQUAL(read_bytes(bytes, size).status, LIMN_BAKE_OK);
+    free(bytes);
+}
+
+int main(void) {
+    static glb file;
+    tube_make(&file);
+    const outcome good = read_changed(&file, "\"scene\":0", "\"scene\":0");
+    CHECK_EQUAL(good.status, LIMN_BAKE_OK);
+    CHECK_EQUAL(good.source_count, 4);
+    CHECK_EQUAL(good.influence_count, 2);
+    test_refusals(&file);
+    test_numbers(&file);
+    test_mended(&file);
+    test_truncated(&file);
+    return check_report();
+}
