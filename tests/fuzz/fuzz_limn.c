@@ -5,6 +5,7 @@
  * The checksum is put right first, or nothing behind it would ever be tried.
  */
 #include "../../runtime/checksum.h"
+#include "../characters.h"
 #include "fuzz.h"
 
 #include "limn/format.h"
@@ -105,6 +106,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
             const limn_mesh mesh = limn_pack_mesh(&pack, m);
             visit(&mesh);
         }
+        use_character(&pack);
     }
     free(memory);
     return 0;
