@@ -15,9 +15,11 @@
 
 static const char help[] =
     "usage: limn bake IN... -o OUT.limn [OPTIONS]\n\n"
-    "Bakes one or more meshes (.obj, .off, .ply) into one .limn file. The meshes share their "
-    "stencil "
-    "tables.\n"
+    "Bakes one or more meshes (.obj, .off, .ply, .gltf, .glb) into one .limn file. The meshes "
+    "share\n"
+    "their stencil tables. Of glTF all meshes of the scene are baked, with skeleton, morph "
+    "targets,\n"
+    "clips and materials.\n"
     "Polygons are triangulated: quads along the shorter diagonal. Nothing is written unless all is "
     "well.\n\n"
     "  -o, --output FILE     the file to write\n"
@@ -46,6 +48,7 @@ static const char help[] =
     "whose\n"
     "                        tables would take more than 256 KB by\n"
     "                        themselves. Default: 0\n"
+    "      --images          store the images of materials, not only their names\n"
     "      --repair[=STEPS]  mend what would be refused, and say so; STEPS of, separated by "
     "commas:\n"
     "                        weld   merge control points whose positions are equal\n"
@@ -103,6 +106,7 @@ enum {
     OPTION_CREASING,
     OPTION_NORMALS,
     OPTION_ISOLATE,
+    OPTION_IMAGES,
     OPTION_REPAIR,
     OPTION_NON_MANIFOLD,
     OPTION_C_ARRAY
@@ -118,6 +122,7 @@ static const struct option options[] = {
     {"creasing", required_argument, NULL, OPTION_CREASING},
     {"normals", required_argument, NULL, OPTION_NORMALS},
     {"isolate", required_argument, NULL, OPTION_ISOLATE},
+    {"images", no_argument, NULL, OPTION_IMAGES},
     {"repair", optional_argument, NULL, OPTION_REPAIR},
     {"non-manifold", required_argument, NULL, OPTION_NON_MANIFOLD},
     {"c-array", required_argument, NULL, OPTION_C_ARRAY},
@@ -190,6 +195,9 @@ static int parse_option(int option, arguments *given) {
         status = choose(&isolations, LIMN_ISOLATE_NEVER, &chosen);
         desc->isolate = (limn_isolate)chosen;
         return status;
+    case OPTION_IMAGES:
+        desc->images = true;
+        return LIMNI_EXIT_OK;
     case OPTION_REPAIR:
         if (!limni_parse_repair(optarg, &given->desc.repair))
             return limni_usage_error("bake", "cannot repair '%s'", optarg);
@@ -245,8 +253,11 @@ static int parse(int argc, char **argv, arguments *given) {
 
 /// A mesh's name in the place of the output is a slip that would cost the mesh.
 static bool is_mesh_name(const char *path) {
-    return limni_has_extension(path, ".obj") || limni_has_extension(path, ".off") ||
-           limni_has_extension(path, ".ply");
+    static const char *const extensions[] = {".obj", ".off", ".ply", ".gltf", ".glb"};
+    for (int e = 0; e < 5; e++) {
+        if (limni_has_extension(path, extensions[e])) return true;
+    }
+    return false;
 }
 
 static void print_summary(const char *path, const void *blob, size_t size) {

@@ -24,7 +24,8 @@ static const char help[] =
     "                        mind\n"
     "  -q, --quiet           only errors\n"
     "  -h, --help            this text\n\n"
-    "IN is .obj, .off or .ply. An .obj that begins with #SubdivisionSurfL is Lomont's.\n\n"
+    "IN is .obj, .off, .ply, .gltf or .glb. glTF must have one mesh. An .obj that begins with "
+    "#SubdivisionSurfL is Lomont's.\n\n"
     "example: limn convert hero.obj hero_lomont.obj --format lomont\n";
 
 typedef enum mesh_format {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "../runtime/edge_error.h"
 #include "command.h"
+#include "info_character.h"
 #include "limn/format.h"
 #include "sizes.h"
 
@@ -12,15 +13,18 @@
 
 static const char help[] =
     "usage: limn info FILE.limn [--json]\n\n"
-    "Says what is in a .limn file: its meshes, and the topology classes with their stencil "
-    "tables.\n\n"
+    "Says what is in a .limn file: its meshes, the topology classes with their stencil tables,\n"
+    "skeleton, clips and materials.\n\n"
     "  --json       as JSON, with the keys\n"
     "                 file.{version,size,table_size,columns_size,class_count,piece_count,bake}\n"
     "                 "
     "meshes[].{name,faces,control_points,patches,patch_size,bytes_per_face,points,\n"
-    "                           points_size,normals_size,class_count,edge_errors}\n"
+    "                           points_size,normals_size,class_count,edge_errors,influences,\n"
+    "                           morph_targets[],materials[].{material,patches}}\n"
     "                 "
     "classes[].{control_points,pairs,table_size,use_count,valences,boundary_corners}\n"
+    "                 joints[].{name,parent}, clips[].{name,duration,tracks},\n"
+    "                 materials[].{name,base_colour,image,image_size}\n"
     "  -h, --help   this text\n\n"
     "Sizes are in bytes. patch_size is what a mesh stores for its patches (runs, faces, control\n"
     "indices, slots, errors); the tables are shared by all meshes and counted in table_size.\n"
@@ -57,6 +61,18 @@ static void find_medians(const limn_mesh *mesh, double medians[LIMN_LEVEL_MAX]) 
     free(errors);
 }
 
+/// With several materials, a class may have several runs.
+static uint32_t count_classes(const limn_mesh *mesh) {
+    uint32_t count = 0;
+    for (uint32_t r = 0; r < mesh->run_count; r++) {
+        uint32_t before = 0;
+        while (before < r && mesh->runs[before].class_index != mesh->runs[r].class_index)
+            before++;
+        count += before == r;
+    }
+    return count;
+}
+
 static uint64_t use_count(const limn_pack *pack, uint32_t class_index) {
     uint64_t count = 0;
     for (uint32_t m = 0; m < pack->mesh_count; m++) {
@@ -68,8 +84,7 @@ static uint64_t use_count(const limn_pack *pack, uint32_t class_index) {
     return count;
 }
 
-/// A string; of one that is not UTF-8, as file names may be, only the ASCII remains.
-static json_t *json_text(const char *text) {
+json_t *limni_json_text(const char *text) {
     json_t *const string = json_string(text);
     if (string) return string;
     char ascii[256];
@@ -91,14 +106,14 @@ static json_t *describe_file(const limn_pack *pack) {
     json_object_set_new(file, "columns_size", json_size(limni_columns_size(pack)));
     json_object_set_new(file, "class_count", json_integer(pack->class_count));
     json_object_set_new(file, "piece_count", json_integer(pack->piece_count));
-    json_object_set_new(file, "bake", json_text(pack->info));
+    json_object_set_new(file, "bake", limni_json_text(pack->info));
     return file;
 }
 
 static json_t *describe_mesh(const limn_mesh *mesh) {
     json_t *const object = json_object();
     const uint64_t size = limni_patches_size(mesh);
-    json_object_set_new(object, "name", json_text(mesh->name));
+    json_object_set_new(object, "name", limni_json_text(mesh->name));
     json_object_set_new(object, "faces", json_integer(mesh->face_count));
     json_object_set_new(object, "control_points", json_integer(mesh->control_count));
     json_object_set_new(object, "patches", json_integer(mesh->patch_count));
@@ -108,7 +123,7 @@ static json_t *describe_mesh(const limn_mesh *mesh) {
     json_object_set_new(object, "points", json_integer(mesh->point_count));
     json_object_set_new(object, "points_size", json_size(limni_points_size(mesh)));
     json_object_set_new(object, "normals_size", json_size(limni_normals_size(mesh)));
-    json_object_set_new(object, "class_count", json_integer(mesh->run_count));
+    json_object_set_new(object, "class_count", json_integer(count_classes(mesh)));
     double medians[LIMN_LEVEL_MAX];
     json_t *const errors = json_array();
     find_medians(mesh, medians);
@@ -140,13 +155,16 @@ static void print_json(const limn_pack *pack) {
     json_t *const root = json_object(), *const meshes = json_array(), *const classes = json_array();
     for (uint32_t m = 0; m < pack->mesh_count; m++) {
         const limn_mesh mesh = limn_pack_mesh(pack, m);
-        json_array_append_new(meshes, describe_mesh(&mesh));
+        json_t *const object = describe_mesh(&mesh);
+        limni_json_rig(object, pack, m);
+        json_array_append_new(meshes, object);
     }
     for (uint32_t c = 0; c < pack->class_count; c++)
         json_array_append_new(classes, describe_class(pack, c));
     json_object_set_new(root, "file", describe_file(pack));
     json_object_set_new(root, "meshes", meshes);
     json_object_set_new(root, "classes", classes);
+    limni_json_character(root, pack);
     json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
     json_decref(root);
     printf("\n");
@@ -193,9 +211,10 @@ static void print_text(const char *path, const limn_pack *pack) {
         printf("%-24s %10u %10u %12llu %10.1f %12llu %8u\n", mesh.name, mesh.face_count,
                mesh.control_count, (unsigned long long)size,
                mesh.patch_count ? (double)size / mesh.patch_count : 0,
-               (unsigned long long)limni_points_size(&mesh), mesh.run_count);
+               (unsigned long long)limni_points_size(&mesh), count_classes(&mesh));
     }
     print_errors(pack);
+    limni_print_character(pack);
     printf("\n%6s  %-14s %14s %10s %10s\n", "class", "valences", "control points", "bytes",
            "faces");
     for (uint32_t c = 0; c < pack->class_count; c++)

@@ -21,7 +21,7 @@ static const char help[] =
     "bounding\n"
     "box. The file must have been baked from that mesh, with Loop's weights and, where it has\n"
     "creases, corners or boundaries, OpenSubdiv's rules for them.\n\n"
-    "      --against FILE   the mesh (.obj, .off, .ply) that was baked\n"
+    "      --against FILE   the mesh (.obj, .off, .ply, .gltf, .glb) that was baked\n"
     "      --mesh N         which mesh of the file, from 0 (default 0)\n"
     "      --repair[=STEPS] as for limn bake, if the mesh was repaired then\n"
     "      --non-manifold NAME  likewise\n"

@@ -430,11 +430,11 @@ static void test_file_errors(void) {
     write_text("test_readers.obj/a.b.stl", "solid\n");
     check_file_error(
         "test_readers.obj/a.b.stl", LIMN_BAKE_BAD_INPUT,
-        "test_readers.obj/a.b.stl: unknown kind of file; .obj, .off and .ply are read");
+        "test_readers.obj/a.b.stl: unknown kind of file; .obj, .off, .ply, .gltf and .glb are read");
     remove("test_readers.obj/a.b.stl");
     write_text("test_readers.obj/obj", "");
     check_file_error("test_readers.obj/obj", LIMN_BAKE_BAD_INPUT,
-                     "test_readers.obj/obj: unknown kind of file; .obj, .off and .ply are read");
+                     "test_readers.obj/obj: unknown kind of file; .obj, .off, .ply, .gltf and .glb are read");
     remove("test_readers.obj/obj");
     write_text("test_readers.obj/empty.off", "");
     check_file_error("test_readers.obj/empty.off", LIMN_BAKE_BAD_INPUT,
