@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # limn_bake(): bakes meshes at build time, as part of a target.
 #
-#   limn_bake(TARGET <target> SOURCES <mesh.obj|mesh.off|mesh.ply>... [OUTPUT <file.limn>] [C_ARRAY <name>]
-#             [OPTIONS <option>...])
+#   limn_bake(TARGET <target> SOURCES <mesh.obj|.off|.ply|.gltf|.glb>... [OUTPUT <file.limn>]
+#             [C_ARRAY <name>] [OPTIONS <option>...])
 #
 # TARGET   an existing target; the file is there before anything of it is built
 # SOURCES  the meshes, in the order they get in the file; relative paths start at CMAKE_CURRENT_SOURCE_DIR
