@@ -11,6 +11,14 @@ const limn_domain *limn_domain_get(limn_domain_kind kind) {
     return domains[kind];
 }
 
+const limni_grid *limni_grid_get(limn_domain_kind kind) {
+    static const limni_grid *const grids[LIMN_DOMAIN_COUNT] = {
+        [LIMN_DOMAIN_TRIANGLE] = &limni_grid_triangle,
+        [LIMN_DOMAIN_QUAD] = &limni_grid_quad,
+    };
+    return grids[kind];
+}
+
 const limni_pieces *limni_pieces_get(limn_domain_kind kind) {
     static const limni_pieces *const pieces[LIMN_DOMAIN_COUNT] = {
         [LIMN_DOMAIN_TRIANGLE] = &limni_pieces_triangle,

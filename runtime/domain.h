@@ -84,6 +84,15 @@ static inline limni_piece_kind limni_piece_kind_of(const limn_domain *domain, ui
     return piece < domain->corner_count ? LIMNI_PIECE_CORNER : LIMNI_PIECE_MIDDLE;
 }
 
+/// Grid coordinates of all rows, from 0 to 1, as vectors are computed with.
+typedef struct limni_grid {
+    const float *u, *v; ///< [limni_padded()]: i / 16 and j / 16
+} limni_grid;
+
+const limni_grid *limni_grid_get(limn_domain_kind kind);
+
+extern const limni_grid limni_grid_triangle, limni_grid_quad;
+
 extern const limn_domain limni_domain_triangle, limni_domain_quad;
 extern const limni_pieces limni_pieces_triangle, limni_pieces_quad;
 

@@ -14,38 +14,62 @@ static uint32_t normal_size(limn_normal_format format) {
     return sizes[format];
 }
 
-/// Whether memory that starts at `start` may hold elements of `size` bytes every `stride` bytes; a
-/// stride of 0 stands for `size`.
-static bool fits(const void *start, uint32_t stride, uint32_t size) {
-    const uint32_t alignment = size % 4 == 0 ? 4 : 2;
-    return (uintptr_t)start % alignment == 0 && stride % alignment == 0 &&
-           (stride == 0 || stride >= size);
+enum { COLOUR_SIZE = 4, STREAM_COUNT = 3 };
+
+/// One thing that vertices have, and where it goes.
+typedef struct stream {
+    const void *start; ///< NULL: nowhere
+    uint32_t size, stride;
+} stream;
+
+static stream make_stream(const void *start, uint32_t stride, uint32_t size) {
+    return (stream){start, size, stride ? stride : size};
 }
 
-/// Streams of their own lie apart; inside the same vertices, positions and normals have one stride
-/// and do not overlap.
-static bool are_apart(const limn_output *output) {
-    const uint32_t size = position_size(output->position_format);
-    const uint32_t normals = normal_size(output->normal_format);
-    const uint32_t stride = output->stride ? output->stride : size;
-    const uint32_t normal_stride = output->normal_stride ? output->normal_stride : normals;
-    const uintptr_t behind = (uintptr_t)output->normals - (uintptr_t)output->vertices;
-    if (behind >= stride && -behind >= normal_stride) return true;
-    if (stride != normal_stride) return false;
-    return behind < stride ? behind >= size && behind + normals <= stride
-                           : -behind >= normals && -behind + size <= stride;
+static bool is_aligned(const stream *s) {
+    const uint32_t alignment = s->size % 4 == 0 ? 4 : 2;
+    return (uintptr_t)s->start % alignment == 0 && s->stride % alignment == 0 &&
+           s->stride >= s->size;
+}
+
+/// Streams of their own lie apart; inside the same vertices, two have one stride and do not overlap.
+static bool are_apart(const stream *a, const stream *b) {
+    const uintptr_t behind = (uintptr_t)b->start - (uintptr_t)a->start;
+    if (behind >= a->stride && -behind >= b->stride) return true;
+    if (a->stride != b->stride) return false;
+    return behind < a->stride ? behind >= a->size && behind + b->size <= a->stride
+                              : -behind >= b->size && -behind + a->size <= a->stride;
+}
+
+static bool can_write(const limn_output *output) {
+    const stream streams[STREAM_COUNT] = {
+        make_stream(output->vertices, output->stride, position_size(output->position_format)),
+        make_stream(output->normals, output->normal_stride, normal_size(output->normal_format)),
+        make_stream(output->colours, output->colour_stride, COLOUR_SIZE)};
+    for (int i = 0; i < STREAM_COUNT; i++) {
+        if (!streams[i].start) continue;
+        if (!is_aligned(&streams[i])) return false;
+        for (int k = 0; k < i; k++) {
+            if (streams[k].start && !are_apart(&streams[k], &streams[i])) return false;
+        }
+    }
+    return output->vertices;
+}
+
+static bool needs_tangents(const limn_output *output) {
+    return output->normals || (output->colours && output->lighting->mode == LIMN_LIGHT_EXACT);
 }
 
 static bool is_valid(const limn_mesh *mesh, const limn_output *output) {
+    const limn_lighting *const lighting = output->lighting;
     if ((unsigned)output->position_format > LIMN_POSITION_UNORM16X4) return false;
     if ((unsigned)output->normal_format > LIMN_NORMAL_SNORM8X4) return false;
-    if (!output->vertices ||
-        !fits(output->vertices, output->stride, position_size(output->position_format)))
+    if (!can_write(output)) return false;
+    if (output->colours && (!lighting || (unsigned)lighting->mode > LIMN_LIGHT_EXACT ||
+                            (lighting->light_count > 0 && !lighting->lights)))
         return false;
-    if (!output->normals) return true;
-    return mesh->normals && output->control_normals &&
-           fits(output->normals, output->normal_stride, normal_size(output->normal_format)) &&
-           are_apart(output);
+    if (needs_tangents(output) && !mesh->normals) return false;
+    return output->control_normals || !(output->normals || output->colours);
 }
 
 static limni_target make_target(const limn_mesh *mesh, const limn_output *output) {
@@ -53,6 +77,11 @@ static limni_target make_target(const limn_mesh *mesh, const limn_output *output
         .stride = output->stride ? output->stride : position_size(output->position_format),
         .normal_stride =
             output->normal_stride ? output->normal_stride : normal_size(output->normal_format),
+        .colour_stride = output->colour_stride ? output->colour_stride : COLOUR_SIZE,
+        .lighting = output->lighting,
+        .grid = limni_grid_get(mesh->domain->kind),
+        .domain = mesh->domain,
+        .tangents = needs_tangents(output),
         .position_format = output->position_format,
         .normal_format = output->normal_format,
         .streaming = output->streaming,
@@ -95,10 +124,10 @@ void limn_evaluate(const limn_plan *plan, const float *controls, uint32_t begin,
     LIMNI_REQUIRE(is_valid(mesh, output), );
     limni_target target = make_target(mesh, output);
     target.level = plan->level;
-    target.domain = mesh->domain;
+    const bool shaded = output->normals || output->colours;
     const limni_points points = {.controls = controls,
                                  .origin = mesh->origin,
-                                 .normals = output->normals ? output->control_normals : NULL};
+                                 .normals = shaded ? output->control_normals : NULL};
     while (begin < end) {
         limni_run part;
         const uint32_t count = take_run(plan, begin, end, &part);
@@ -107,6 +136,9 @@ void limn_evaluate(const limn_plan *plan, const float *controls, uint32_t begin,
         if (output->normals)
             target.normals =
                 (unsigned char *)output->normals + (size_t)first * target.normal_stride;
+        if (output->colours)
+            target.colours =
+                (unsigned char *)output->colours + (size_t)first * target.colour_stride;
         mesh->kernels->evaluate(&part, &points, &target);
         begin += count;
     }

@@ -215,6 +215,25 @@ static void print_rows(void) {
     printf("};\n\n");
 }
 
+static int pad(int count) {
+    return (count + ROW_BLOCK - 1) / ROW_BLOCK * ROW_BLOCK;
+}
+
+static void print_coordinate(const char *name, bool second) {
+    printf("static const float grid_%s[%d] = {", name, pad(row_count));
+    for (int row = 0; row < row_count; row++) {
+        const int t = second ? rows[row].j : rows[row].i;
+        printf("%s%.4ff", row == 0 ? "" : row % 12 == 0 ? ",\n    " : ", ", t / (double)GRID);
+    }
+    printf("};\n\n");
+}
+
+static void print_grid(void) {
+    print_coordinate("u", false);
+    print_coordinate("v", true);
+    printf("const limni_grid limni_grid_%s = {grid_u, grid_v};\n\n", of->name);
+}
+
 static void print_edges(void) {
     printf("static const limn_edge_rows edge_rows[%d] = {\n", of->corner_count);
     for (int edge = 0; edge < of->corner_count; edge++) {
@@ -249,10 +268,6 @@ static int print_indices(int level) {
     }
     printf("};\n\n");
     return index_total;
-}
-
-static int pad(int count) {
-    return (count + ROW_BLOCK - 1) / ROW_BLOCK * ROW_BLOCK;
 }
 
 static void print_list(const char *name, const int values[LEVEL_COUNT]) {
@@ -611,6 +626,7 @@ int main(int argc, char **argv) {
            "/* Written by generate_domain.c; do not edit. */\n"
            "#include \"domain.h\"\n\n// clang-format off\n");
     print_rows();
+    print_grid();
     print_edges();
     for (int level = 0; level < LEVEL_COUNT; level++)
         index_counts[level] = print_indices(level);

@@ -88,7 +88,8 @@ static inline limni_piece limni_piece_of(const limni_run *run, uint32_t p) {
 typedef struct limni_points {
     const float *controls; ///< [][3]
     const float *origin;   ///< [3] subtracted from every control point, and added to every row
-    const float *normals;  ///< [][3] see limn_mesh_control_normals(); NULL: no normals
+    const float *normals;  ///< [][3] see limn_mesh_control_normals(); NULL: neither normals nor
+                           ///< light
 } limni_points;
 
 /// Where the vertices of a run go, one patch behind the other.
@@ -97,6 +98,11 @@ typedef struct limni_target {
     size_t stride;           ///< bytes from vertex to vertex
     unsigned char *normals;  ///< the same for normals; NULL: none are written
     size_t normal_stride;
+    unsigned char *colours; ///< the same for colours; NULL: none are written
+    size_t colour_stride;
+    const limn_lighting *lighting; ///< NULL: there are no colours
+    const limni_grid *grid;        ///< of the domain
+    bool tangents;                 ///< all rows need a normal, to write it or to light them
     limn_position_format position_format;
     limn_normal_format normal_format;
     float box_min[3], box_scale[3]; ///< packed positions are (position - min) * scale

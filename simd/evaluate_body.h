@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The evaluation kernel, written once. A kernels_<isa>.c includes its lanes first, then this.
- * sums.h, formats.h and stores.h are its three steps; between them, everything stays in L1.
+ * sums.h, light.h, formats.h and stores.h are its steps; between them, everything stays in L1.
  */
 #include "control_normals_body.h"
+#include "light.h"
 #include "morph.h"
 #include "pieces.h"
 #include "refine_body.h"
@@ -59,7 +60,8 @@ static inline void gather_pairs(const uint32_t *indices, size_t count, size_t pa
         set_term(out++, gather_point(controls, indices[slot], origin), column += row_stride);
 }
 
-/// What one patch is between summing and storing.
+/// What one patch is between summing and storing. Tangents become normals, in place of the first of
+/// them; the second then are colours.
 typedef struct scratch {
     vectors positions, along, across;
 } scratch;
@@ -107,6 +109,25 @@ static inline part normal_part(const limni_target *target) {
     return p;
 }
 
+static inline part colour_part(const limni_target *target) {
+    enum { FIRST = offsetof(scratch, across) / sizeof(float) };
+    return (part){.planes = {FIRST},
+                  .word_count = 1,
+                  .size = 4,
+                  .dst = target->colours,
+                  .stride = target->colour_stride};
+}
+
+static inline void arrange_parts(const limni_target *target, parts *p) {
+    const part position = position_part(target), normal = normal_part(target);
+    const part colour = colour_part(target);
+    *p = (parts){.count = 0};
+    add_part(p, &position);
+    if (target->normals) add_part(p, &normal);
+    if (target->colours) add_part(p, &colour);
+    join_parts(p);
+}
+
 /// The corners have the normals of their control points, so that all patches around one agree, or
 /// all on one side.
 static inline void set_corner_normals(const uint32_t *corners, uint32_t first_corner,
@@ -140,7 +161,7 @@ typedef struct wanted {
     const limn_plan_patch *item;  ///< NULL: all rows where they are
     const uint32_t *corners;      ///< indices of their normals,
     uint32_t first_corner;        ///< counted from here
-    const float *control_normals; ///< NULL: no normals
+    const float *control_normals; ///< NULL: neither normals nor light
     const limni_layout *layout;   ///< of tangents
     assembly *pieces;             ///< NULL: the class has a table
     uint32_t level;
@@ -186,27 +207,47 @@ static inline void find_piece_normals(assembly *a, uint32_t level, vectors *norm
                normals);
 }
 
-/// Unit normals from tangents, in place of the first of them, as they will be written.
-static inline void make_normals(const limni_target *target, const wanted *what, scratch *rows) {
+/// Unit normals of all rows, or of the corners.
+static inline void find_row_normals(const limni_target *target, const wanted *what, scratch *rows) {
     const limn_domain *const domain = target->domain;
-    if (what->pieces) {
+    if (target->tangents && what->pieces) {
         find_piece_normals(what->pieces, what->level, &rows->along);
-    } else {
+    } else if (target->tangents) {
         find_table_normals(domain, what, rows);
     }
     set_corner_normals(what->corners, what->first_corner, domain->corner_count,
                        what->control_normals, &rows->along);
-    if (what->item) morph_patch(domain, what->item, true, &rows->along);
-    pack_normals(target->normal_format, what->row_count, &rows->along);
+}
+
+static inline void light_rows(const limni_target *target, size_t row_count, scratch *rows) {
+    const lit_patch lit = {.grid = target->grid,
+                           .positions = &rows->positions,
+                           .normals = &rows->along,
+                           .corner_count = target->domain->corner_count,
+                           .row_count = row_count,
+                           .colours = &rows->across};
+    light_patch(target->lighting, &lit);
+}
+
+/// Everything is found where the rows are and then moves alike, so that nothing jumps as levels
+/// change.
+static inline void morph_rows(const limni_target *target, const limn_plan_patch *item,
+                              scratch *rows) {
+    morph_patch(target->domain, item, false, &rows->positions);
+    if (target->normals) morph_patch(target->domain, item, true, &rows->along);
+    if (target->colours) morph_patch(target->domain, item, false, &rows->across);
 }
 
 static LIMNI_NOINLINE void store_patch(const limni_target *target, const parts *to,
                                        const wanted *what, scratch *rows) {
     const float *const planes = (const float *)(const void *)rows;
-    if (what->item) morph_patch(target->domain, what->item, false, &rows->positions);
+    if (what->control_normals) find_row_normals(target, what, rows);
+    if (target->colours) light_rows(target, what->row_count, rows);
+    if (what->item) morph_rows(target, what->item, rows);
     if (target->position_format == LIMN_POSITION_UNORM16X4)
         pack_unorm16x4(target, what->row_count, &rows->positions);
-    if (what->control_normals) make_normals(target, what, rows);
+    if (target->normals) pack_normals(target->normal_format, what->row_count, &rows->along);
+    if (target->colours) pack_rgba8(what->row_count, &rows->across);
     if (target->streaming) {
         stream_parts(to, planes, what->row_count);
     } else {
@@ -370,9 +411,10 @@ static inline void sum_pieces(assembly *a, const limni_run *run, const chosen *w
 }
 
 /// Whether all that is wanted are positions as three floats, one behind the other.
-static inline bool is_tight(const limni_points *from, const limni_target *target) {
-    return !from->normals && target->position_format == LIMN_POSITION_FLOAT3 &&
-           target->stride == 3 * sizeof(float) && !target->streaming;
+static inline bool is_tight(const limni_target *target) {
+    return !target->normals && !target->colours &&
+           target->position_format == LIMN_POSITION_FLOAT3 && target->stride == 3 * sizeof(float) &&
+           !target->streaming;
 }
 
 /// tight   is_tight(), for the compiler: a fifth of the time at the lowest levels
@@ -384,9 +426,9 @@ static LIMNI_INLINE void evaluate_patches(const limni_run *run, const gathering 
     // of vectors leave it alone.
     const size_t count = run->control_count;
     const quad origin = quad_load_point(from->origin);
-    const part position = position_part(target), normal = normal_part(target);
+    const part position = position_part(target);
     parts to;
-    arrange_parts(&position, from->normals ? &normal : NULL, &to);
+    arrange_parts(target, &to);
     const size_t even_count = count - 1 - run->pair_count;
     patch p = {.table = run->table,
                .origin = from->origin,
@@ -408,10 +450,11 @@ static LIMNI_INLINE void evaluate_patches(const limni_run *run, const gathering 
         const size_t row_count = target->domain->row_counts[which.level];
         to.first = item ? item->first_vertex : i * row_count;
         if (pieces) {
-            sum_pieces(pieces, run, &which, g, from->origin, target->domain, from->normals,
+            sum_pieces(pieces, run, &which, g, from->origin, target->domain, target->tangents,
                        &rows.positions);
         } else {
-            sum_patch(&p, run, &which, g, origin, target->domain, !tight && from->normals, &rows);
+            sum_patch(&p, run, &which, g, origin, target->domain, !tight && target->tangents,
+                      &rows);
         }
         if (tight) {
             if (item) morph_patch(target->domain, item, false, &rows.positions);
@@ -464,7 +507,7 @@ static LIMNI_NOINLINE void evaluate_in_wide_pieces(const limni_run *run, const l
 static LIMNI_NOINLINE void evaluate_with_tables(const limni_run *run, const limni_points *from,
                                                 const limni_target *target) {
     _Alignas(16) term absolute[LIMNI_PLAIN_TERMS], folded[LIMNI_PLAIN_TERMS];
-    const bool apart = from->normals && run->control_count <= LIMNI_PLAIN_TERMS;
+    const bool apart = target->tangents && run->control_count <= LIMNI_PLAIN_TERMS;
     gathering g = {.controls = from->controls,
                    .slot_size = run->slot_size,
                    .to = {.absolute = apart ? absolute : NULL, .folded = folded}};
@@ -472,7 +515,7 @@ static LIMNI_NOINLINE void evaluate_with_tables(const limni_run *run, const limn
         _Alignas(16) term ascending[LIMN_FORMAT_NARROW_SLOTS];
         g.slot_size = 1;
         g.to.ascending = ascending;
-        if (is_tight(from, target)) {
+        if (is_tight(target)) {
             evaluate_patches(run, &g, from, target, true, NULL);
         } else {
             evaluate_patches(run, &g, from, target, false, NULL);

@@ -18,9 +18,9 @@ static inline lanes clamp(lanes a, lanes low, lanes high) {
     return lanes_select_greater(high, a, a, high);
 }
 
-/// 0 to 65535 in the lower 16 bits.
-static inline lanes quantise_unsigned(lanes a) {
-    return lanes_add(clamp(a, lanes_zero(), lanes_splat(65535.0f)), lanes_splat(0x1p23f));
+/// 0 to `limit` in the lower bits.
+static inline lanes quantise_unsigned(lanes a, float limit) {
+    return lanes_add(clamp(a, lanes_zero(), lanes_splat(limit)), lanes_splat(0x1p23f));
 }
 
 /// -limit to limit, in two's complement, for a between -1 and 1.
@@ -37,11 +37,25 @@ static inline void pack_unorm16x4(const limni_target *target, size_t row_count, 
         for (int axis = 0; axis < 3; axis++) {
             const lanes from_box = lanes_subtract(lanes_load_any(&rows->axes[axis][row]),
                                                   lanes_splat(target->box_min[axis]));
-            packed[axis] =
-                quantise_unsigned(lanes_multiply(from_box, lanes_splat(target->box_scale[axis])));
+            packed[axis] = quantise_unsigned(
+                lanes_multiply(from_box, lanes_splat(target->box_scale[axis])), 65535.0f);
         }
         lanes_store(&rows->axes[0][row], lanes_join(packed[0], packed[1], 16));
         lanes_store(&rows->axes[1][row], lanes_join(packed[2], one, 16));
+    }
+}
+
+/// Red, green and blue become one plane, with 255.
+static inline void pack_rgba8(size_t row_count, vectors *rows) {
+    const lanes limit = lanes_splat(255.0f), opaque = lanes_splat(0x1p23f + 255.0f);
+    for (size_t row = 0; row < row_count; row += LANES_WIDTH) {
+        lanes packed[3];
+        for (int axis = 0; axis < 3; axis++)
+            packed[axis] = quantise_unsigned(
+                lanes_multiply(lanes_load_any(&rows->axes[axis][row]), limit), 255.0f);
+        const lanes rg = lanes_join(packed[0], packed[1], 8);
+        const lanes ba = lanes_join(packed[2], opaque, 8);
+        lanes_store(&rows->axes[0][row], lanes_join(rg, ba, 16));
     }
 }
 

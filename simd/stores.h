@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-enum { WORDS_MAX = 6, VERTEX_MAX = 4 * WORDS_MAX };
+enum { PARTS_MAX = 3, WORDS_MAX = 7, VERTEX_MAX = 4 * WORDS_MAX };
 
 /// Consecutive bytes of each vertex.
 typedef struct part {
@@ -136,12 +136,12 @@ static inline void store_rows(const part *p, const float *rows, unsigned char *b
         store_vertex(p, rows, base, row);
 }
 
-/// The parts of the vertices: positions, and perhaps normals.
+/// The parts of the vertices: positions, and perhaps normals and colours. Those that lie in the same
+/// vertices, with bytes of the caller's between them, are consecutive and in the order of memory.
 typedef struct parts {
-    part items[2];
+    part items[PARTS_MAX];
+    bool follows[PARTS_MAX]; ///< the part lies in the vertices of the one before
     int count;
-    bool apart;   ///< both lie in the same vertices, the first in front, with bytes of the caller's
-                  ///< between them
     size_t first; ///< vertex of the patch, in the run
 } parts;
 
@@ -158,50 +158,78 @@ static inline bool join(part *a, const part *b) {
     return true;
 }
 
-/// b: NULL if there is but a
-static inline void arrange_parts(const part *a, const part *b, parts *p) {
-    *p = (parts){.items = {*a}, .count = 1};
-    if (!b) return;
-    p->count = 2;
-    p->items[1] = *b;
+static inline bool share_vertices(const part *a, const part *b) {
     const uintptr_t distance = (uintptr_t)b->dst - (uintptr_t)a->dst;
-    if (a->stride != b->stride || (distance >= a->stride && -distance >= a->stride)) return;
-    p->apart = true;
-    if (b->dst < a->dst) {
-        p->items[0] = *b;
-        p->items[1] = *a;
+    return a->stride == b->stride && (distance < a->stride || -distance < a->stride);
+}
+
+/// Puts a part beside those in the same vertices, in the order of memory, or behind all.
+static inline void add_part(parts *p, const part *added) {
+    int at = p->count;
+    for (int i = p->count - 1; i >= 0; i--) {
+        if (!share_vertices(&p->items[i], added)) continue;
+        at = p->items[i].dst < added->dst ? i + 1 : i;
+        if (at > i) break;
     }
-    if (join(&p->items[0], &p->items[1])) p->count = 1;
+    for (int i = p->count++; i > at; i--)
+        p->items[i] = p->items[i - 1];
+    p->items[at] = *added;
+}
+
+/// Makes one part of those that lie right behind one another, and finds which follow which.
+static inline void join_parts(parts *p) {
+    int count = 1;
+    for (int i = 1; i < p->count; i++) {
+        const bool shared = share_vertices(&p->items[count - 1], &p->items[i]);
+        if (shared && join(&p->items[count - 1], &p->items[i])) continue;
+        p->follows[count] = shared;
+        p->items[count++] = p->items[i];
+    }
+    p->count = count;
+}
+
+/// The first part that does not follow part `i`.
+static inline int end_of(const parts *p, int i) {
+    for (i++; i < p->count && p->follows[i];)
+        i++;
+    return i;
+}
+
+/// Parts [begin, end) of the same vertices.
+static inline void store_apart(const parts *p, int begin, int end, const float *rows,
+                               size_t row_count) {
+    for (size_t row = 0; row < row_count; row++) {
+        for (int i = begin; i < end; i++)
+            store_vertex(&p->items[i], rows, base_of(p, i), row);
+    }
 }
 
 static inline void store_parts(const parts *p, const float *rows, size_t row_count) {
-    if (p->count == 2 && p->apart) {
-        for (size_t row = 0; row < row_count; row++) {
-            store_vertex(&p->items[0], rows, base_of(p, 0), row);
-            store_vertex(&p->items[1], rows, base_of(p, 1), row);
+    for (int i = 0, end; i < p->count; i = end) {
+        end = end_of(p, i);
+        if (end > i + 1) {
+            store_apart(p, i, end, rows, row_count);
+        } else {
+            store_rows(&p->items[i], rows, base_of(p, i), row_count);
         }
-        return;
     }
-    for (int i = 0; i < p->count; i++)
-        store_rows(&p->items[i], rows, base_of(p, i), row_count);
 }
 
 /// All rows past the caches, by way of L1. There is no such way where the caller has bytes of his
 /// own between the vertices, nor for elements of two bytes.
 static inline void stream_parts(const parts *p, const float *rows, size_t row_count) {
     _Alignas(64) unsigned char staging[LIMNI_ROW_MAX * VERTEX_MAX];
-    if (p->count == 2 && p->apart) {
-        store_parts(p, rows, row_count);
-        return;
-    }
-    for (int i = 0; i < p->count; i++) {
+    for (int i = 0, end; i < p->count; i = end) {
         const part *const item = &p->items[i];
-        if (item->size != item->stride || item->size % 4 != 0) {
+        end = end_of(p, i);
+        if (end > i + 1) {
+            store_apart(p, i, end, rows, row_count);
+        } else if (item->size != item->stride || item->size % 4 != 0) {
             store_rows(item, rows, base_of(p, i), row_count);
-            continue;
+        } else {
+            store_rows(item, rows, staging, row_count);
+            lanes_stream(base_of(p, i), staging, row_count * item->size);
         }
-        store_rows(item, rows, staging, row_count);
-        lanes_stream(base_of(p, i), staging, row_count * item->size);
     }
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Whole frames with levels of detail: over many meshes and random cameras, what would be drawn is a
- * surface by bits, positions and normals, closed but for the boundary of the mesh, and of the same
+ * surface by bits, positions, normals and light, closed but for the boundary of the mesh, and of the same
  * topology; rows are where the definition of morphing puts them; what is culled cannot be seen;
  * budgets are kept; splits change nothing.
  */
@@ -14,7 +14,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { FLOATS = 6, FRAMES_PER_MESH = 16, FACES_MAX = 4000 };
+enum { COLOUR = 6, FLOATS }; ///< of a vertex: position, normal, and the bytes of a colour
+enum { FRAMES_PER_MESH = 16, FACES_MAX = 4000 };
 
 /// What patches of a domain are drawn with.
 typedef struct drawing {
@@ -72,7 +73,9 @@ typedef struct subject {
     float (*vertices)[FLOATS]; ///< room for all patches at level 4
     uint8_t *open;             ///< [patch_count] bit e: edge e is on the boundary
     uint8_t *apart;            ///< [patch_count] bit e: patches at edge e have normals of their own
-    bool has_sides;            ///< the vertices have normals, of which some are apart
+    bool has_sides;            ///< the vertices have normals and light, of which some are apart
+    limn_light lights[2];
+    limn_lighting lighting;
     float diagonal;
 } subject;
 
@@ -145,6 +148,21 @@ static bool find_boundary(subject *s) {
     return any;
 }
 
+/// From the front and above; and a spot from the side.
+static void place_lights(subject *s) {
+    const float *const low = s->mesh.bounds_min, *const high = s->mesh.bounds_max;
+    s->lights[0] = (limn_light){.colour = {0.5f, 0.4f, 0.3f}, .direction = {0.36f, -0.48f, -0.8f}};
+    s->lights[1] = (limn_light){.kind = LIMN_LIGHT_SPOT,
+                                .colour = {0.5f, 0.6f, 0.7f},
+                                .direction = {-1, 0, 0},
+                                .range = 2 * s->diagonal,
+                                .inner_cosine = 0.97f,
+                                .outer_cosine = 0.9f};
+    for (int axis = 0; axis < 3; axis++)
+        s->lights[1].position[axis] = (low[axis] + high[axis]) / 2 + (axis ? 0 : s->diagonal);
+    s->lighting = (limn_lighting){.lights = s->lights, .light_count = 2};
+}
+
 static bool load(subject *s, const char *path, limn_scheme scheme, limn_isolate isolate) {
     const void *blob;
     size_t size;
@@ -169,6 +187,7 @@ static bool load(subject *s, const char *path, limn_scheme scheme, limn_isolate 
         const float size_of_axis = s->mesh.bounds_max[axis] - s->mesh.bounds_min[axis];
         s->diagonal = hypotf(s->diagonal, size_of_axis);
     }
+    place_lights(s);
     return true;
 }
 
@@ -181,21 +200,24 @@ static void unload(subject *s) {
     limn_baker_destroy(s->baker);
 }
 
-/// Across creases normals differ: positions are compared alone, and then normals elsewhere.
+/// Across creases normals and light differ: positions are compared alone, and then those elsewhere.
 static bool has_creases(const subject *s) {
     return s->mesh.creases || s->mesh.corner_normals;
 }
 
-static limn_output output_of(subject *s) {
+static limn_output output_of(subject *s, bool shaded) {
     return (limn_output){.vertices = s->vertices,
                          .stride = sizeof *s->vertices,
-                         .normals = has_creases(s) ? NULL : s->vertices[0] + 3,
+                         .normals = shaded ? s->vertices[0] + 3 : NULL,
                          .normal_stride = sizeof *s->vertices,
+                         .colours = shaded ? s->vertices[0] + COLOUR : NULL,
+                         .colour_stride = sizeof *s->vertices,
+                         .lighting = &s->lighting,
                          .control_normals = s->control_normals};
 }
 
 static void evaluate(subject *s, const limn_plan *plan) {
-    const limn_output output = output_of(s);
+    const limn_output output = output_of(s, !has_creases(s));
     limn_evaluate(plan, s->mesh.controls, 0, plan->patch_count, &output);
 }
 
@@ -438,8 +460,9 @@ static bool is_skipped(const limn_plan_patch *item, uint32_t row) {
 static void check_morphs(subject *s, const limn_plan *plan) {
     const limn_plan uniform = limn_plan_uniform(&s->mesh, LIMN_LEVEL_MAX);
     float(*const finest)[FLOATS] = calloc((size_t)uniform.vertex_count, sizeof *finest);
-    limn_output output = output_of(s);
+    limn_output output = output_of(s, !has_creases(s));
     output.vertices = finest;
+    output.colours = NULL;
     if (output.normals) output.normals = finest[0] + 3;
     limn_evaluate(&uniform, s->mesh.controls, 0, uniform.patch_count, &output);
     const uint32_t row_count = domain->row_counts[LIMN_LEVEL_MAX];
@@ -533,7 +556,7 @@ static void check_budget(subject *s, const limn_view *view, limn_lod lod) {
 
 /// Any split of a plan, in any order, gives the same bytes.
 static void check_split(subject *s, const limn_plan *plan) {
-    const limn_output output = output_of(s);
+    const limn_output output = output_of(s, !has_creases(s));
     const size_t size = (size_t)plan->vertex_count * sizeof *s->vertices;
     void *const whole = malloc(size + 1);
     memcpy(whole, s->vertices, size);
@@ -568,8 +591,7 @@ static void check_hook(subject *s, limn_view view) {
 static void check_sides(subject *s, const limn_plan *plan,
                         uint64_t (*sum)(const subject *s, const limn_plan *plan)) {
     if (!has_creases(s)) return;
-    limn_output output = output_of(s);
-    output.normals = s->vertices[0] + 3;
+    const limn_output output = output_of(s, true);
     limn_evaluate(plan, s->mesh.controls, 0, plan->patch_count, &output);
     s->has_sides = true;
     CHECK_EQUAL(sum(s, plan), 0);
@@ -591,6 +613,7 @@ static void test_frame(subject *s, int frame) {
     const limn_lod_desc desc = random_desc();
     const uint32_t isa = frame % 3 == 0 ? LIMN_ISA_SCALAR : LIMN_ISA_ALL;
     s->mesh.kernels = limn_kernels_select(isa, (limn_family)(frame % 2));
+    s->lighting.mode = (limn_light_mode)(frame / 2 % 2);
     limn_plan plan =
         limn_plan_build(&s->mesh, s->mesh.controls, views, view_count, &desc, templates, s->memory);
     CHECK_EQUAL(plan.patch_count, s->mesh.patch_count);

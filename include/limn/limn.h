@@ -85,7 +85,10 @@ uint32_t limn_version(void);
     X(LIMN_ERROR_CLIP,                                                                             \
       "the tracks of a clip are not in order, not finite, or move what does not exist")            \
     X(LIMN_ERROR_MATERIAL,                                                                         \
-      "a material or an image is out of range, or ranges do not cover the patches of a mesh")
+      "a material or an image is out of range, or ranges do not cover the patches of a mesh")      \
+    X(LIMN_ERROR_LIGHT,                                                                            \
+      "a light is of an unknown kind or not finite, its direction is no unit vector, or its "      \
+      "attenuation, range or cone is negative or turned around")
 
 typedef enum limn_result {
 #define LIMN_RESULT_NAME(name, text) name,
@@ -467,6 +470,58 @@ void limn_morph_points(const limn_morph_targets *targets, const float *weights, 
                        uint32_t begin, uint32_t end, float *out);
 
 // -------------------------------------------------------------------------------------------------
+// Light
+//
+// Diffuse light on the vertices of a frame, as Brickhill has it on a mesh that is dense because it
+// is subdivided: a colour for each vertex, to multiply with that of the material. Positions and
+// directions are in the space of the control points, colours linear.
+
+typedef enum limn_light_kind {
+    LIMN_LIGHT_DIRECTIONAL, ///< from so far away that it is the same everywhere
+    LIMN_LIGHT_POINT,
+    LIMN_LIGHT_SPOT
+} limn_light_kind;
+
+/// One light. What it gives is max(0, n . w) for a unit normal n and the way w to it, times its
+/// colour, and if it has a position, times what of it arrives: with d the distance,
+/// 1 / (a + b d + c d^2), max(0, 1 - (d / range)^4), and in the cone of a spot, from the outer
+/// cosine to the inner, the square of the part of the way between them. With a = b = 0, c = 1 that
+/// is KHR_lights_punctual of glTF.
+typedef struct limn_light {
+    limn_light_kind kind;
+    float colour[3];      ///< red, green, blue, times its strength
+    float position[3];    ///< point, spot
+    float direction[3];   ///< directional, spot: a unit vector, the way that the light goes
+    float attenuation[3]; ///< point, spot: a, b and c, not negative; all 0 stand for a = 1
+    float range;          ///< point, spot: nothing arrives beyond; 0: no limit
+    float inner_cosine;   ///< spot: of the angle to its direction within which all of it arrives
+    float outer_cosine;   ///< spot: outside of which nothing does, at most inner_cosine; equal:
+                          ///< a hard edge
+} limn_light;
+
+/// Where normals are taken for max(0, n . w). What arrives of a light, and whether a spot reaches a
+/// vertex, is found at every vertex with both.
+typedef enum limn_light_mode {
+    LIMN_LIGHT_INTERPOLATED, ///< at the limits of base vertices, and linear over each patch, on
+                             ///< quads bilinear (Brickhill): no normals between them are needed
+    LIMN_LIGHT_EXACT         ///< at every vertex; costs its normal, whether written or not
+} limn_light_mode;
+
+/// All light of a frame: each light adds to `ambient` in the order of the array.
+typedef struct limn_lighting {
+    limn_light_mode mode;
+    float ambient[3];
+    const limn_light *lights; ///< [light_count], see limn_lights_check()
+    uint32_t light_count;
+} limn_lighting;
+
+/// Whether lights can be used: LIMN_ERROR_LIGHT. A direction may be 1e-3 off unit length. Does not
+/// allocate; any thread.
+///
+/// index  out: the first that is refused, if any is; or NULL
+limn_result limn_lights_check(const limn_light *lights, uint32_t light_count, uint32_t *index);
+
+// -------------------------------------------------------------------------------------------------
 // Plans and evaluation
 
 /// One patch of a plan with levels of detail. The level of an edge is a real number l between 0 and
@@ -609,8 +664,8 @@ typedef enum limn_normal_format {
 } limn_normal_format;
 
 /// Where vertices go, and in which form. Each byte is written once and none is read. Memory is
-/// written forward: vertex after vertex, or where normals have a stream of their own, a patch of
-/// positions and a patch of normals in turn.
+/// written forward: vertex after vertex, or where normals or colours have a stream of their own, a
+/// patch of each in turn.
 typedef struct limn_output {
     void *vertices;  ///< position of vertex 0 of the *plan*, aligned to 4 bytes
     uint32_t stride; ///< bytes from position to position, a multiple of 4; 0 means tightly packed
@@ -625,8 +680,16 @@ typedef struct limn_output {
     uint32_t normal_stride; ///< bytes from normal to normal, a multiple of the alignment; 0 means
                             ///< tightly packed, so inside the vertices it is never 0
     limn_normal_format normal_format;
+    void
+        *colours; ///< colour of vertex 0 of the plan, aligned to 4 bytes: red, green and blue, each
+                  ///< 255 times a light of 0 to 1, clamped and rounded to the nearest, and 255;
+                  ///< linear, as glTF's vertex colours are. In a stream of its own, or inside the
+                  ///< vertices, with the same stride; NULL: no colours
+    uint32_t colour_stride;        ///< bytes from colour to colour, as for normals
+    const limn_lighting *lighting; ///< needed with `colours`
     /// [mesh->normal_count][3] from limn_mesh_control_normals(), for the corners of the patches;
-    /// needed with `normals`.
+    /// needed with `normals` and `colours`. For LIMN_LIGHT_INTERPOLATED a mesh needs no normals: if
+    /// it has none, these are [base_count][3] of the caller's.
     const float *control_normals;
     /// Write past the caches, where the CPU can (x86), where there are no gaps between vertices and
     /// no 2-byte normals: for memory that this CPU does not read soon.
@@ -653,7 +716,7 @@ void limn_mesh_refine(const limn_mesh *mesh, float *controls);
 void limn_mesh_control_normals(const limn_mesh *mesh, const float *controls, float *normals);
 
 /// Evaluates patches [begin, end) of a plan and writes their positions, and if asked to, unit
-/// normals of the limit surface. Does not allocate, never fails; any number of threads may evaluate
+/// normals of the limit surface and the light on it. Does not allocate, never fails; any number of threads may evaluate
 /// disjoint ranges of one plan into one output. Takes some 64 KB of stack; 200 KB where a patch
 /// depends on more than 256 points. The caller's own bytes between vertices are left
 /// alone. The same input gives the same bits with every reproducible kernel, and shared vertices of
