@@ -93,6 +93,14 @@ expect_picture tall 60 240
 expect_picture flat 160 120 --shade flat --level 1
 expect_picture smooth 160 120 --shade smooth --level 1
 expect_different flat smooth
+for how in base interpolated exact; do
+    expect_picture light_$how 160 120 --light $how --spot 0.5,2.5,2
+done
+expect_different light_base light_interpolated
+expect_different light_interpolated light_exact
+expect_different light_base shaded
+draw spot_cone --light exact --spot 0.5,2.5,2 --spot-target 0,1,0 --spot-cone 8 --size 160x120
+expect_different spot_cone light_exact
 eye="--eye 0.5,1.8,2 --target 0,1.6,0 --tolerance 60"
 draw levels $eye --size 160x120 --colour levels --wireframe
 draw frame_lines $eye --size 160x120 --wireframe
@@ -146,6 +154,12 @@ done
 
 expect_error 2 "$file" --png "$out" --colour red
 expect_error 2 "$file" --png "$out" --shade round
+expect_error 2 "$file" --png "$out" --light dim
+expect_error 2 "$file" --png "$out" --spot 1,2,3
+expect_error 2 "$file" --png "$out" --light exact --spot 1,2
+expect_error 2 "$file" --png "$out" --light exact --spot-target 1,2,3
+expect_error 2 "$file" --png "$out" --light exact --spot 1,2,3 --spot-cone 90
+expect_error 1 "$file" --png "$out" --light exact --spot 1,2,3 --spot-target 1,2,3
 expect_error 2 "$file" --png "$out" --overview
 expect_error 2 "$file" --png "$out" --lod length
 expect_error 2 "$file" --png "$out" --eye 1,2

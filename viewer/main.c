@@ -25,6 +25,12 @@ static const char help_text[] =
     "                          0 blue, 1 light blue, 2 green, 3 yellow, 4 orange, and in between\n"
     "                          while morphing\n"
     "      --shade HOW         smooth (default), or flat: each triangle by its own normal\n"
+    "      --light HOW         the runtime's light on vertices, faint from the front, and a spot:\n"
+    "                          interpolated or exact (limn_light_mode), or base: all light at the\n"
+    "                          base vertices, for comparison; default: each pixel is lit\n"
+    "      --spot X,Y,Z        where the spot is, in model units; default: there is none\n"
+    "      --spot-target X,Y,Z what it shines on; default the middle of the bounds\n"
+    "      --spot-cone DEG     angle from its axis to its edge, 1 to 89 degrees; default 20\n"
     "      --wireframe         draw triangles, and the borders of patches stronger\n"
     "      --control-mesh      draw the edges and points of the base mesh, faintly where hidden\n"
     "      --mesh N            draw mesh N of the file only, counted from 0; default all meshes\n"
@@ -42,6 +48,23 @@ static const char help_text[] =
     "Example: limn-view spot.limn --png spot.png --eye 0,1,3 --colour levels --wireframe\n";
 
 static const char version_format[] = "limn-view %u.%u.%u\n";
+
+enum option_key {
+    KEY_PNG = 1,
+    KEY_SIZE,
+    KEY_COLOUR,
+    KEY_SHADE,
+    KEY_LIGHT,
+    KEY_SPOT,
+    KEY_SPOT_TARGET,
+    KEY_SPOT_CONE,
+    KEY_WIREFRAME,
+    KEY_CONTROL,
+    KEY_MESH,
+    KEY_OVERVIEW,
+    KEY_HELP,
+    KEY_VERSION
+};
 
 static bool parse_size(view_picture *picture, const char *text) {
     return limni_parse_size(text, VIEW_TARGET_SIZE_MAX, &picture->width, &picture->height) ||
@@ -69,24 +92,41 @@ static bool parse_shade(view_picture *picture, const char *text) {
            view_fail("--shade '%s': not smooth or flat", text);
 }
 
-enum option_key {
-    KEY_PNG = 1,
-    KEY_SIZE,
-    KEY_COLOUR,
-    KEY_SHADE,
-    KEY_WIREFRAME,
-    KEY_CONTROL,
-    KEY_MESH,
-    KEY_OVERVIEW,
-    KEY_HELP,
-    KEY_VERSION
-};
+static bool parse_light(view_picture *picture, const char *text) {
+    static const char *const names[] = {[VIEW_LIGHT_BASE] = "base",
+                                        [VIEW_LIGHT_INTERPOLATED] = "interpolated",
+                                        [VIEW_LIGHT_EXACT] = "exact"};
+    picture->light.mode = VIEW_LIGHT_NONE;
+    for (int mode = VIEW_LIGHT_BASE; mode <= VIEW_LIGHT_EXACT; mode++) {
+        if (strcmp(text, names[mode]) == 0) picture->light.mode = (view_light_mode)mode;
+    }
+    return picture->light.mode != VIEW_LIGHT_NONE ||
+           view_fail("--light '%s': not interpolated, exact or base", text);
+}
+
+static bool parse_spot(view_light *light, int key, const char *text) {
+    switch (key) {
+    case KEY_SPOT:
+        light->has_spot = limni_parse_point(text, light->spot);
+        return light->has_spot || view_fail("--spot '%s': not a point X,Y,Z", text);
+    case KEY_SPOT_TARGET:
+        light->has_target = limni_parse_point(text, light->target);
+        return light->has_target || view_fail("--spot-target '%s': not a point X,Y,Z", text);
+    default:
+        return limni_parse_real(text, 1, 89, &light->cone) ||
+               view_fail("--spot-cone '%s': not an angle of 1 to 89 degrees", text);
+    }
+}
 
 static const struct option long_options[] = {
     {"png", required_argument, NULL, KEY_PNG},
     {"size", required_argument, NULL, KEY_SIZE},
     {"colour", required_argument, NULL, KEY_COLOUR},
     {"shade", required_argument, NULL, KEY_SHADE},
+    {"light", required_argument, NULL, KEY_LIGHT},
+    {"spot", required_argument, NULL, KEY_SPOT},
+    {"spot-target", required_argument, NULL, KEY_SPOT_TARGET},
+    {"spot-cone", required_argument, NULL, KEY_SPOT_CONE},
     {"wireframe", no_argument, NULL, KEY_WIREFRAME},
     {"control-mesh", no_argument, NULL, KEY_CONTROL},
     {"mesh", required_argument, NULL, KEY_MESH},
@@ -108,6 +148,12 @@ static bool apply_option(view_picture *picture, int key) {
         return parse_colour(picture, optarg);
     case KEY_SHADE:
         return parse_shade(picture, optarg);
+    case KEY_LIGHT:
+        return parse_light(picture, optarg);
+    case KEY_SPOT:
+    case KEY_SPOT_TARGET:
+    case KEY_SPOT_CONE:
+        return parse_spot(&picture->light, key, optarg);
     case KEY_WIREFRAME:
         return picture->wireframe = true;
     case KEY_CONTROL:
@@ -131,6 +177,14 @@ static bool check_paths(view_picture *picture, char *const *operands, int operan
     picture->limn_path = operands[0];
     if (limni_is_same_file(picture->limn_path, picture->png_path))
         return view_fail("%s is input and output", picture->png_path);
+    return true;
+}
+
+static bool check_light(const view_light *light) {
+    if (light->has_spot && light->mode == VIEW_LIGHT_NONE)
+        return view_fail("--spot: say how to --light");
+    if ((light->has_target || light->cone > 0) && !light->has_spot)
+        return view_fail("--spot-%s: there is no --spot", light->has_target ? "target" : "cone");
     return true;
 }
 
@@ -171,7 +225,7 @@ int main(int argument_count, char **arguments) {
         if (!apply_option(&picture, key)) return usage_error();
     }
     if (!check_paths(&picture, arguments + optind, argument_count - optind) ||
-        !check_frame(&picture))
+        !check_light(&picture.light) || !check_frame(&picture))
         return usage_error();
     return view_picture_make(&picture) ? STATUS_OK : STATUS_FAILED;
 }

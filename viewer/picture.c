@@ -20,6 +20,7 @@ static bool draw(const view_gl *gl, const view_scene *scene, const view_picture 
         .height = target->height,
         .pixel_scale = (float)target->pixel_scale * line_scale(picture),
         .level_colours = picture->level_colours,
+        .vertex_light = scene->light_mode != VIEW_LIGHT_NONE,
         .flat_shading = picture->flat_shading,
         .wireframe = picture->wireframe,
         .control_mesh = picture->control_mesh,
@@ -53,7 +54,8 @@ static bool draw_and_write(const view_context *context, const view_scene *scene,
 
 bool view_picture_make(const view_picture *picture) {
     view_scene scene;
-    bool done = view_scene_open(&scene, picture->limn_path, &picture->frame, picture->mesh_index);
+    bool done = view_scene_open(&scene, picture->limn_path, &picture->frame, &picture->light,
+                                picture->mesh_index);
     if (done) {
         view_context *const context = view_context_create();
         done = context && draw_and_write(context, &scene, picture);

@@ -4,12 +4,14 @@
 #define VIEW_PICTURE_H
 
 #include "frame_options.h"
+#include "light.h"
 
 typedef struct view_picture {
     const char *limn_path;
     const char *png_path;
     limni_frame_options frame; ///< checked
     uint32_t width, height;
+    view_light light;
     long mesh_index; ///< or VIEW_ALL_MESHES
     bool level_colours;
     bool flat_shading;

@@ -92,6 +92,13 @@ static void set_floats(const view_gl *gl, GLuint attribute, GLint count, size_t 
                             (const void *)(uintptr_t)offset);
 }
 
+/// Four of a vertex; `normalised`: 255 stands for 1.
+static void set_bytes(const view_gl *gl, GLuint attribute, GLboolean normalised, size_t offset) {
+    gl->EnableVertexAttribArray(attribute);
+    gl->VertexAttribPointer(attribute, 4, GL_UNSIGNED_BYTE, normalised,
+                            (GLsizei)sizeof(view_vertex), (const void *)(uintptr_t)offset);
+}
+
 static void upload_surface(const view_gl *gl, drawable *target, const view_surface *source,
                            GLuint templates) {
     target->surface = create_geometry(gl, source->vertices,
@@ -100,9 +107,8 @@ static void upload_surface(const view_gl *gl, drawable *target, const view_surfa
     set_floats(gl, 0, 3, sizeof(view_vertex), offsetof(view_vertex, position));
     set_floats(gl, 1, 3, sizeof(view_vertex), offsetof(view_vertex, normal));
     set_floats(gl, 3, 1, sizeof(view_vertex), offsetof(view_vertex, level));
-    gl->EnableVertexAttribArray(2);
-    gl->VertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_FALSE, (GLsizei)sizeof(view_vertex),
-                            (const void *)offsetof(view_vertex, borders));
+    set_bytes(gl, 2, GL_FALSE, offsetof(view_vertex, borders));
+    set_bytes(gl, 4, GL_TRUE, offsetof(view_vertex, light));
 }
 
 /// Control points, and indices of theirs.
@@ -188,6 +194,7 @@ static void use_program(const view_gl *gl, GLuint program, const view_frame *fra
                   (float)frame->height);
     gl->Uniform1f(gl->GetUniformLocation(program, "pixel_scale"), frame->pixel_scale);
     gl->Uniform1f(gl->GetUniformLocation(program, "level_colours"), frame->level_colours);
+    gl->Uniform1f(gl->GetUniformLocation(program, "vertex_light"), frame->vertex_light);
     gl->Uniform1f(gl->GetUniformLocation(program, "flat_shading"), frame->flat_shading);
 }
 

@@ -15,6 +15,7 @@ typedef struct view_frame {
     uint32_t width, height; ///< of the framebuffer, which must encode sRGB
     float pixel_scale;      ///< framebuffer pixels per pixel of line width
     bool level_colours;     ///< instead of clay
+    bool vertex_light;      ///< that of the vertices, instead of the shader's own
     bool flat_shading;      ///< a normal for each triangle
     bool wireframe;
     bool control_mesh;

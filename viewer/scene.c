@@ -36,9 +36,37 @@ static void describe_vertices(const limn_plan *plan, view_vertex *vertices) {
     }
 }
 
+static void find_corner_weights(const limn_domain *domain, limn_row row, float weights[4]) {
+    const float u = (float)row.i / LIMN_GRID_SIZE, v = (float)row.j / LIMN_GRID_SIZE;
+    const bool quad = domain->kind == LIMN_DOMAIN_QUAD;
+    weights[0] = quad ? (1 - u) * (1 - v) : 1 - u - v;
+    weights[1] = quad ? u * (1 - v) : u;
+    weights[2] = quad ? u * v : v;
+    weights[3] = quad ? (1 - u) * v : 0;
+}
+
+/// At every row, what is drawn between the colours of the corners.
+static void spread_light(const limn_plan *plan, view_vertex *vertices) {
+    const limn_domain *const domain = plan->mesh->domain;
+    for (uint32_t p = 0; p < plan->patch_count; p++) {
+        view_vertex *const patch = vertices + plan->patches[p].first_vertex;
+        const uint32_t row_count = domain->row_counts[plan->patches[p].level];
+        for (uint32_t row = domain->corner_count; row < row_count; row++) {
+            float weights[4];
+            find_corner_weights(domain, domain->rows[row], weights);
+            for (int colour = 0; colour < 3; colour++) {
+                float sum = 0.5f; // to round
+                for (uint32_t corner = 0; corner < domain->corner_count; corner++)
+                    sum += weights[corner] * patch[corner].light[colour];
+                patch[row].light[colour] = (uint8_t)sum;
+            }
+        }
+    }
+}
+
 /// Positions, and the limit's normals if the file has them; otherwise those of the triangles.
-static bool evaluate_vertices(const limn_plan *plan, const uint16_t *indices,
-                              view_vertex *vertices) {
+static bool evaluate_vertices(const view_scene *scene, const limn_plan *plan,
+                              const uint16_t *indices, view_vertex *vertices) {
     const limn_mesh *const mesh = plan->mesh;
     limn_output output = {.vertices = vertices, .stride = sizeof(view_vertex)};
     float *control_normals = NULL;
@@ -49,9 +77,13 @@ static bool evaluate_vertices(const limn_plan *plan, const uint16_t *indices,
         output.normals = vertices->normal;
         output.normal_stride = sizeof(view_vertex);
         output.control_normals = control_normals;
+        output.colours = scene->light_mode == VIEW_LIGHT_NONE ? NULL : vertices->light;
+        output.colour_stride = sizeof(view_vertex);
+        output.lighting = &scene->lamps.lighting;
     }
     limn_evaluate(plan, mesh->controls, 0, plan->patch_count, &output);
     free(control_normals);
+    if (scene->light_mode == VIEW_LIGHT_BASE) spread_light(plan, vertices);
     return mesh->normals || view_normals_compute(plan, indices, vertices);
 }
 
@@ -59,6 +91,9 @@ static bool evaluate_surface(const view_scene *scene, view_surface *surface) {
     const limn_mesh *const mesh = &surface->mesh;
     const view_templates *const templates = &scene->templates[mesh->domain->kind];
     if (has_too_many(mesh, limni_frame_vertex_bound(&scene->frame, mesh))) return false;
+    if (scene->light_mode != VIEW_LIGHT_NONE && !mesh->normals)
+        return view_fail("--light: mesh '%s' has no normals; bake it with --normals exact",
+                         mesh->name);
     surface->plan_memory = malloc(limn_plan_size(mesh) + 1);
     if (!surface->plan_memory) return view_fail("out of memory for mesh '%s'", mesh->name);
     surface->plan = limn_plan_build(mesh, mesh->controls, &scene->frame.view, 1, &scene->frame.desc,
@@ -68,7 +103,7 @@ static bool evaluate_surface(const view_scene *scene, view_surface *surface) {
     if (!surface->vertices) return view_fail("out of memory for mesh '%s'", mesh->name);
 
     describe_vertices(plan, surface->vertices);
-    if (!evaluate_vertices(plan, templates->indices, surface->vertices) ||
+    if (!evaluate_vertices(scene, plan, templates->indices, surface->vertices) ||
         !view_control_mesh_find(&surface->control_mesh, mesh)) {
         return view_fail("out of memory for mesh '%s'", mesh->name);
     }
@@ -86,11 +121,14 @@ static bool list_templates(const limn_domain *domain, view_templates *templates)
     return true;
 }
 
-static bool evaluate_meshes(view_scene *scene, limni_frame_options options, uint32_t first,
-                            uint32_t count) {
+static bool evaluate_meshes(view_scene *scene, limni_frame_options options, const view_light *light,
+                            uint32_t first, uint32_t count) {
     const limni_bounds bounds = limni_bounds_of(&scene->pack, first, count);
     if (!limni_frame_resolve(&options, &bounds, &scene->frame))
         return view_fail("%s", options.error);
+    scene->light_mode = light->mode;
+    if (light->mode != VIEW_LIGHT_NONE && !view_lamps_make(&scene->lamps, light, &bounds))
+        return false;
     scene->surfaces = calloc((size_t)count + 1, sizeof *scene->surfaces);
     if (!scene->surfaces) return view_fail("out of memory for %u meshes", count);
     for (uint32_t i = 0; i < count; i++) {
@@ -105,7 +143,7 @@ static bool evaluate_meshes(view_scene *scene, limni_frame_options options, uint
 }
 
 bool view_scene_open(view_scene *scene, const char *path, const limni_frame_options *options,
-                     long mesh_index) {
+                     const view_light *light, long mesh_index) {
     *scene = (view_scene){0};
     char error[512];
     if (!limni_blob_file_open(&scene->blob, path, error, sizeof error))
@@ -114,12 +152,13 @@ bool view_scene_open(view_scene *scene, const char *path, const limni_frame_opti
     if (result != LIMN_OK) return view_fail("%s: %s", path, limn_result_text(result));
 
     const uint32_t mesh_count = scene->pack.mesh_count;
-    if (mesh_index == VIEW_ALL_MESHES) return evaluate_meshes(scene, *options, 0, mesh_count);
+    if (mesh_index == VIEW_ALL_MESHES)
+        return evaluate_meshes(scene, *options, light, 0, mesh_count);
     if ((unsigned long)mesh_index >= mesh_count) {
         return view_fail("%s: there is no mesh %ld; the file has %u, counted from 0", path,
                          mesh_index, mesh_count);
     }
-    return evaluate_meshes(scene, *options, (uint32_t)mesh_index, 1);
+    return evaluate_meshes(scene, *options, light, (uint32_t)mesh_index, 1);
 }
 
 void view_scene_close(view_scene *scene) {

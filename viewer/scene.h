@@ -6,6 +6,7 @@
 #include "blob_file.h"
 #include "camera.h"
 #include "control_mesh.h"
+#include "light.h"
 #include "limn/limn.h"
 #include <stdbool.h>
 
@@ -15,6 +16,7 @@ typedef struct view_vertex {
     float normal[3];
     float level;        ///< of the patch, a real number
     uint8_t borders[4]; ///< grid steps, at most 16, from each edge of the patch; 255: no such edge
+    uint8_t light[4];   ///< where there are lamps: red, green, blue
 } view_vertex;
 
 /// The index templates of a domain; empty unless a surface has it.
@@ -37,6 +39,8 @@ typedef struct view_scene {
     limni_blob_file blob;
     limn_pack pack;
     limni_frame frame;
+    view_light_mode light_mode;
+    view_lamps lamps;                            ///< unless that is VIEW_LIGHT_NONE
     view_templates templates[LIMN_DOMAIN_COUNT]; ///< of the domains that surfaces have
     view_surface *surfaces;
     uint32_t surface_count;
@@ -47,7 +51,7 @@ enum { VIEW_ALL_MESHES = -1 };
 /// Opens a file, and plans and evaluates a frame of one of its meshes, or VIEW_ALL_MESHES. Reports
 /// why and returns false on failure. The scene must stay where it is, and be closed in either case.
 bool view_scene_open(view_scene *scene, const char *path, const limni_frame_options *options,
-                     long mesh_index);
+                     const view_light *light, long mesh_index);
 
 void view_scene_close(view_scene *scene);
 

@@ -22,21 +22,24 @@ static const char background_fragment_source[] =
     "    color = vec4(mix(vec3(0.030, 0.029, 0.029), vec3(0.150, 0.157, 0.168), t), 1);\n"
     "}\n";
 
-static const char surface_vertex_source[] =
-    "layout(location = 0) in vec3 position;\n"
-    "layout(location = 1) in vec3 normal;\n"
-    "layout(location = 2) in vec4 borders;\n"
-    "layout(location = 3) in float level;\n"
-    "uniform mat4 view, projection;\n"
-    "out Surface { vec3 position, normal; float level; } surface;\n" // towards the viewer is +Z
-    "out vec4 vertex_borders;\n"
-    "void main() {\n"
-    "    surface.position = (view * vec4(position, 1)).xyz;\n"
-    "    surface.normal = mat3(view) * normal;\n"
-    "    surface.level = level;\n"
-    "    vertex_borders = borders;\n"
-    "    gl_Position = projection * vec4(surface.position, 1);\n"
-    "}\n";
+static const char
+    surface_vertex_source[] = "layout(location = 0) in vec3 position;\n"
+                              "layout(location = 1) in vec3 normal;\n"
+                              "layout(location = 2) in vec4 borders;\n"
+                              "layout(location = 3) in float level;\n"
+                              "layout(location = 4) in vec4 light;\n"
+                              "uniform mat4 view, projection;\n"
+                              "out Surface { vec3 position, normal, light; float level; } "
+                              "surface;\n" // towards the viewer is +Z
+                              "out vec4 vertex_borders;\n"
+                              "void main() {\n"
+                              "    surface.position = (view * vec4(position, 1)).xyz;\n"
+                              "    surface.normal = mat3(view) * normal;\n"
+                              "    surface.level = level;\n"
+                              "    surface.light = light.rgb;\n"
+                              "    vertex_borders = borders;\n"
+                              "    gl_Position = projection * vec4(surface.position, 1);\n"
+                              "}\n";
 
 // Gives every corner its distance in pixels from each of the three sides, and from each border of
 // the patch. The latter is right in triangles, too, that a wide border line crosses with no side of
@@ -46,9 +49,9 @@ static const char wireframe_geometry_source[] =
     "layout(triangle_strip, max_vertices = 3) out;\n"
     "uniform vec2 viewport;\n"
     "uniform float pixel_scale;\n"
-    "in Surface { vec3 position, normal; float level; } corners[];\n"
+    "in Surface { vec3 position, normal, light; float level; } corners[];\n"
     "in vec4 vertex_borders[];\n"
-    "out Surface { vec3 position, normal; float level; } surface;\n"
+    "out Surface { vec3 position, normal, light; float level; } surface;\n"
     "noperspective out vec3 side_distance;\n"
     "noperspective out vec4 border_distance;\n"
     "flat out float side_strength;\n"
@@ -70,6 +73,7 @@ static const char wireframe_geometry_source[] =
     "        surface.position = corners[i].position;\n"
     "        surface.normal = corners[i].normal;\n"
     "        surface.level = corners[i].level;\n"
+    "        surface.light = corners[i].light;\n"
     "        side_distance = vec3(0);\n"
     "        side_distance[i] = heights[i];\n"
     "        border_distance = vertex_borders[i] * step_pixels;\n"
@@ -84,9 +88,9 @@ static const char wireframe_geometry_source[] =
 // Clay, or the colours of levels, between three lamps that stand still while the camera turns. The
 // colours are Okabe and Ito's, which differ for those who are colour-blind too.
 static const char surface_fragment_source[] =
-    "in Surface { vec3 position, normal; float level; } surface;\n"
+    "in Surface { vec3 position, normal, light; float level; } surface;\n"
     "out vec4 color;\n"
-    "uniform float level_colours, flat_shading;\n"
+    "uniform float level_colours, vertex_light, flat_shading;\n"
     "const vec3 clay = vec3(0.40, 0.345, 0.295);\n"
     "const vec3 palette[5] = vec3[5](vec3(0.000, 0.168, 0.445), vec3(0.093, 0.456, 0.815),\n"
     "                                vec3(0.000, 0.342, 0.171), vec3(0.871, 0.776, 0.054),\n"
@@ -139,7 +143,8 @@ static const char surface_fragment_source[] =
     "        normal = -normal;\n"
     "        albedo *= vec3(0.58, 0.62, 0.70);\n"
     "    }\n"
-    "    vec3 light = 1.0 - exp(-1.15 * shade(albedo, normal, eye));\n"
+    "    vec3 light = vertex_light > 0.0 ? 2.0 * albedo * surface.light\n"
+    "                                    : 1.0 - exp(-1.15 * shade(albedo, normal, eye));\n"
     "#ifdef WIREFRAME\n"
     "    light = mix(light, vec3(0.012, 0.014, 0.018), lines());\n"
     "#endif\n"
