@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The kernels of every instruction set this CPU has, on made-up classes: all ranges of patches, all
- * levels, formats and strides; guard bytes around the output; bit-equal to scalar, and scalar
+ * levels, formats, strides and modes of light; guard bytes around the output; bit-equal to scalar, and scalar
  * within a bound of a sum in double precision. Links the runtime alone.
  */
 #include "../../runtime/checksum.h"
@@ -203,6 +203,8 @@ typedef struct layout {
     uint32_t stride, normal_offset; ///< of vertices that hold both; 0: positions alone
     uint32_t position_offset;
     bool streaming;
+    const limn_lighting *lighting; ///< NULL: no colours
+    uint32_t colour_offset;
 } layout;
 
 static uint32_t position_size(const layout *l) {
@@ -217,8 +219,29 @@ static uint32_t normal_size(const layout *l) {
 }
 
 static bool is_written(const layout *l, size_t at) {
-    return at - l->position_offset < position_size(l) || at - l->normal_offset < normal_size(l);
+    return at - l->position_offset < position_size(l) || at - l->normal_offset < normal_size(l) ||
+           (l->lighting && at - l->colour_offset < 4);
 }
+
+/// All kinds of lights, among points between -10 and 10.
+static const limn_light lights[] = {
+    {.colour = {0.2f, 0.1f, 0.1f}, .direction = {0.6f, -0.64f, -0.48f}},
+    {.kind = LIMN_LIGHT_POINT,
+     .colour = {2, 3, 4},
+     .position = {3, -4, 5},
+     .attenuation = {1, 0.5f, 0.25f}},
+    {.kind = LIMN_LIGHT_SPOT,
+     .colour = {0.3f, 0.1f, -0.1f},
+     .position = {-2, 9, 1},
+     .direction = {0, -1, 0},
+     .range = 30,
+     .inner_cosine = 0.9f,
+     .outer_cosine = 0.4f},
+};
+static const limn_lighting lightings[2] = {
+    {LIMN_LIGHT_INTERPOLATED, {0.1f, 0.2f, 0.3f}, lights, 3},
+    {LIMN_LIGHT_EXACT, {0.3f, 0.2f, 0.1f}, lights, 3},
+};
 
 static limn_output make_output(const made *m, const layout *l, unsigned char *vertices) {
     static const float box[2][3] = {{-11, -12, -13}, {12, 20, 11}};
@@ -231,6 +254,12 @@ static limn_output make_output(const made *m, const layout *l, unsigned char *ve
     if (normal_size(l)) {
         output.normals = vertices + l->normal_offset;
         output.normal_stride = l->stride;
+        output.control_normals = m->normals[0];
+    }
+    if (l->lighting) {
+        output.colours = vertices + l->colour_offset;
+        output.colour_stride = l->stride;
+        output.lighting = l->lighting;
         output.control_normals = m->normals[0];
     }
     return output;
@@ -466,6 +495,21 @@ static void test_golden(made *m, const limn_kernels *kernels) {
     }
 }
 
+/// The same of colours, in both modes.
+static void test_golden_light(made *m, const limn_kernels *kernels) {
+    static const uint64_t goldens[LIMN_DOMAIN_COUNT][2][2] = {
+        {{0x0156f45897f27e4du, 0x4489522599d8577cu}, {0x5a8593cb52532e46u, 0x83ca221a6e9fc019u}},
+        {{0x244be30527819381u, 0xa5e255d8fc4a3ea5u}, {0xda3510e782471769u, 0x6ebbc025f97b2e89u}}};
+    for (int mode = 0; mode < 2; mode++) {
+        const layout l = {.stride = 16, .lighting = &lightings[mode], .colour_offset = 12};
+        const size_t size = evaluate_as(m, kernels, 3, &l, 0, m->mesh.patch_count, actual);
+        const uint64_t hash = limni_checksum(actual + GUARD, size - 2 * GUARD);
+        if (!CHECK(hash == goldens[m->mesh.domain->kind][m->in_pieces][mode]))
+            fprintf(stderr, "    %s: light %d: 0x%016llx\n", limn_kernels_name(kernels), mode,
+                    (unsigned long long)hash);
+    }
+}
+
 /// Normals in a stream of their own are those inside the vertices; corners have the control
 /// points'.
 static void test_normal_stream(made *m, const limn_kernels *kernels) {
@@ -533,6 +577,26 @@ static const layout layouts[] = {
      .position = LIMN_POSITION_UNORM16X4,
      .normal = LIMN_NORMAL_OCT8X2},
     {.stride = 28, .position_offset = 4, .normal_offset = 16},
+    {.stride = 16, .lighting = &lightings[0], .colour_offset = 12},
+    {.stride = 16, .lighting = &lightings[1], .colour_offset = 12},
+    {.stride = 20, .position_offset = 8, .normal_offset = 8, .lighting = &lightings[0]},
+    {.stride = 28, .normal_offset = 12, .lighting = &lightings[0], .colour_offset = 24},
+    {.stride = 28, .normal_offset = 16, .lighting = &lightings[1], .colour_offset = 12},
+    {.stride = 36,
+     .position_offset = 8,
+     .normal_offset = 24,
+     .lighting = &lightings[1],
+     .colour_offset = 4},
+    {.stride = 12,
+     .position = LIMN_POSITION_UNORM16X4,
+     .lighting = &lightings[0],
+     .colour_offset = 8},
+    {.stride = 16,
+     .position = LIMN_POSITION_UNORM16X4,
+     .normal_offset = 12,
+     .normal = LIMN_NORMAL_OCT8X2,
+     .lighting = &lightings[1],
+     .colour_offset = 8},
 };
 enum { LAYOUTS = sizeof layouts / sizeof *layouts };
 
@@ -595,22 +659,28 @@ static double angle_between(const double a[3], const float b[3]) {
 static void test_streams(made *m, const limn_kernels *kernels) {
     static unsigned char positions[CLASSES * PATCHES * ROWS_MAX * 16 + 2 * GUARD];
     static unsigned char normals[CLASSES * PATCHES * ROWS_MAX * 16 + 2 * GUARD];
+    static unsigned char colours[CLASSES * PATCHES * ROWS_MAX * 8 + 2 * GUARD];
     for (int kind = 0; kind < 32; kind++) {
         const layout inside = {.stride = STRIDE_MAX,
                                .normal_offset = 16,
                                .position = (limn_position_format)(kind % 2),
                                .normal = (limn_normal_format)(kind / 2 % 4),
-                               .streaming = kind / 8 % 2};
+                               .streaming = kind / 8 % 2,
+                               .lighting = &lightings[kind % 2],
+                               .colour_offset = 32};
         const uint32_t gap = kind / 16 ? 4 : 0, level = next_random() % LIMN_LEVEL_COUNT;
         const uint32_t position_stride = position_size(&inside) + gap;
         const uint32_t normal_stride = normal_size(&inside) + gap;
         evaluate_as(m, kernels, level, &inside, 0, m->mesh.patch_count, expected);
         memset(positions, 0xa5, sizeof positions);
         memset(normals, 0xa5, sizeof normals);
+        memset(colours, 0xa5, sizeof colours);
         limn_output output = make_output(m, &inside, positions + GUARD);
         output.stride = position_stride;
         output.normals = normals + GUARD;
         output.normal_stride = normal_stride;
+        output.colours = colours + GUARD;
+        output.colour_stride = 4 + gap;
         const limn_plan plan = limn_plan_uniform(&m->mesh, level);
         limn_evaluate(&plan, m->controls[0], 0, plan.patch_count, &output);
         const size_t count = (size_t)plan.vertex_count;
@@ -621,10 +691,12 @@ static void test_streams(made *m, const limn_kernels *kernels) {
                            position_size(&inside)) == 0;
             same &=
                 memcmp(vertex + 16, normals + GUARD + v * normal_stride, normal_size(&inside)) == 0;
+            same &= memcmp(vertex + 32, colours + GUARD + v * (4 + gap), 4) == 0;
         }
         CHECK(same);
         CHECK(positions[GUARD - 1] == 0xa5 && positions[GUARD + count * position_stride] == 0xa5);
         CHECK(normals[GUARD - 1] == 0xa5 && normals[GUARD + count * normal_stride] == 0xa5);
+        CHECK(colours[GUARD - 1] == 0xa5 && colours[GUARD + count * (4 + gap)] == 0xa5);
     }
 }
 
@@ -1010,6 +1082,7 @@ static void test_kernels(made *m, const limn_kernels *kernels, point_kind kind, 
     if (kind == RANDOM && kernels->family == LIMN_FAMILY_REPRODUCIBLE) {
         test_golden(m, kernels);
         test_golden_plan(m, kernels);
+        test_golden_light(m, kernels);
     }
     if (golden) return;
     test_precision(m, kernels, kind == RANDOM);
