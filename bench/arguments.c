@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "arguments.h"
 
+#include "limn/limn.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -39,4 +41,15 @@ bool bench_parse_scheme(const char *text, limn_scheme *scheme) {
 
 const char *bench_scheme_name(limn_scheme scheme) {
     return scheme == LIMN_SCHEME_LOOP ? "loop" : "catmark";
+}
+
+bool bench_parse_isa(const char *name, uint32_t *isa) {
+    for (uint32_t bit = LIMN_ISA_SCALAR; bit <= limn_isa_supported(); bit <<= 1) {
+        const limn_kernels *const kernels = limn_kernels_select(bit, LIMN_FAMILY_REPRODUCIBLE);
+        if (!(limn_isa_supported() & bit) || strcmp(limn_kernels_name(kernels), name) != 0)
+            continue;
+        *isa = bit;
+        return true;
+    }
+    return false;
 }

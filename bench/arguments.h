@@ -26,4 +26,7 @@ bool bench_parse_range(const char *text, uint32_t low, uint32_t high, uint32_t *
 bool bench_parse_scheme(const char *text, limn_scheme *scheme);
 const char *bench_scheme_name(limn_scheme scheme);
 
+/// The name of an instruction set that this CPU has; nothing is written otherwise.
+bool bench_parse_isa(const char *name, uint32_t *isa);
+
 #endif

@@ -18,6 +18,7 @@ int bench_bake(int argc, char **argv);
 int bench_dolly(int argc, char **argv);
 int bench_isolation(int argc, char **argv);
 int bench_kernels(int argc, char **argv);
+int bench_light(int argc, char **argv);
 int bench_peers(int argc, char **argv);
 int bench_plan(int argc, char **argv);
 int bench_skin(int argc, char **argv);

@@ -16,6 +16,7 @@ static const struct {
     {"isolation", bench_isolation, "bytes and time per face of isolated meshes beside dense ones"},
     {"kernels", bench_kernels,
      "time per patch of every kernel, and its share of what this core can do at most"},
+    {"light", bench_light, "time to light vertices beside that to evaluate them"},
     {"peers", bench_peers,
      "time per face beside OpenSubdiv, recursive subdivision and dense skinning"},
     {"plan", bench_plan,

@@ -292,22 +292,11 @@ static bool run(const options *o, char **paths, int path_count) {
     return bench_results_close(&csv, o->csv, good);
 }
 
-static bool parse_isa(const char *name, uint32_t *isa) {
-    for (uint32_t bit = LIMN_ISA_SCALAR; bit <= limn_isa_supported(); bit <<= 1) {
-        const limn_kernels *const kernels = limn_kernels_select(bit, LIMN_FAMILY_REPRODUCIBLE);
-        if (!(limn_isa_supported() & bit) || strcmp(limn_kernels_name(kernels), name) != 0)
-            continue;
-        *isa = bit;
-        return true;
-    }
-    return false;
-}
-
 static bool parse_option(int option, void *parsed) {
     options *const to = parsed;
     switch (option) {
     case 'i':
-        return parse_isa(optarg, &to->isa);
+        return bench_parse_isa(optarg, &to->isa);
     case 'r':
         return bench_parse_range(optarg, 1, ROUND_MAX, &to->rounds);
     case 'q':

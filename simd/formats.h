@@ -14,8 +14,7 @@
 
 /// Between low and high; NaN becomes low.
 static inline lanes clamp(lanes a, lanes low, lanes high) {
-    a = lanes_select_greater(a, low, a, low);
-    return lanes_select_greater(high, a, a, high);
+    return lanes_min(lanes_max(a, low), high);
 }
 
 /// 0 to `limit` in the lower bits.

@@ -78,6 +78,14 @@ static inline lanes lanes_multiply_add(lanes a, lanes b, lanes c) {
     return _mm256_add_ps(_mm256_mul_ps(a, b), c);
 }
 #endif
+/// Lane by lane: a > b ? a : b.
+static inline lanes lanes_max(lanes a, lanes b) {
+    return _mm256_max_ps(a, b);
+}
+/// Lane by lane: a < b ? a : b.
+static inline lanes lanes_min(lanes a, lanes b) {
+    return _mm256_min_ps(a, b);
+}
 /// Lane by lane: a > b ? x : y.
 static inline lanes lanes_select_greater(lanes a, lanes b, lanes x, lanes y) {
     return _mm256_blendv_ps(y, x, _mm256_cmp_ps(a, b, _CMP_GT_OQ));

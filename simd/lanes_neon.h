@@ -61,6 +61,14 @@ static inline lanes lanes_multiply_add(lanes a, lanes b, lanes c) {
     return vaddq_f32(vmulq_f32(a, b), c);
 }
 #endif
+/// Lane by lane: a > b ? a : b.
+static inline lanes lanes_max(lanes a, lanes b) {
+    return vbslq_f32(vcgtq_f32(a, b), a, b);
+}
+/// Lane by lane: a < b ? a : b.
+static inline lanes lanes_min(lanes a, lanes b) {
+    return vbslq_f32(vcltq_f32(a, b), a, b);
+}
 /// Lane by lane: a > b ? x : y.
 static inline lanes lanes_select_greater(lanes a, lanes b, lanes x, lanes y) {
     return vbslq_f32(vcgtq_f32(a, b), x, y);

@@ -57,6 +57,14 @@ static inline lanes lanes_divide(lanes a, lanes b) {
 static inline lanes lanes_multiply_add(lanes a, lanes b, lanes c) {
     return a * b + c;
 }
+/// Lane by lane: a > b ? a : b.
+static inline lanes lanes_max(lanes a, lanes b) {
+    return a > b ? a : b;
+}
+/// Lane by lane: a < b ? a : b.
+static inline lanes lanes_min(lanes a, lanes b) {
+    return a < b ? a : b;
+}
 /// Lane by lane: a > b ? x : y.
 static inline lanes lanes_select_greater(lanes a, lanes b, lanes x, lanes y) {
     return a > b ? x : y;

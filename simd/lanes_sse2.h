@@ -66,6 +66,14 @@ static inline lanes lanes_multiply_add(lanes a, lanes b, lanes c) {
 static inline lanes lanes_blend(__m128 mask, lanes x, lanes y) {
     return _mm_or_ps(_mm_and_ps(mask, x), _mm_andnot_ps(mask, y));
 }
+/// Lane by lane: a > b ? a : b.
+static inline lanes lanes_max(lanes a, lanes b) {
+    return _mm_max_ps(a, b);
+}
+/// Lane by lane: a < b ? a : b.
+static inline lanes lanes_min(lanes a, lanes b) {
+    return _mm_min_ps(a, b);
+}
 /// Lane by lane: a > b ? x : y.
 static inline lanes lanes_select_greater(lanes a, lanes b, lanes x, lanes y) {
     return lanes_blend(_mm_cmpgt_ps(a, b), x, y);

@@ -81,8 +81,7 @@ static LIMNI_INLINE beam find_beam(limn_light_kind kind, const lamp *l, const ve
 static inline lanes find_cosine(const beam *b, const vectors *normals, size_t row) {
     lanes normal[3];
     load_vector(normals, row, normal);
-    const lanes cosine = dot(normal, b->way), zero = lanes_zero();
-    return lanes_select_greater(cosine, zero, cosine, zero);
+    return lanes_max(dot(normal, b->way), lanes_zero());
 }
 
 /// `share` of a light, less what does not arrive.
@@ -102,7 +101,7 @@ static LIMNI_INLINE lanes attenuate(limn_light_kind kind, const lamp *l, const b
     const lanes linear = lanes_multiply(lanes_splat(l->attenuation[1]), b->distance);
     const lanes quadratic = lanes_multiply(lanes_splat(l->attenuation[2]), b->square);
     const lanes divisor = lanes_add(lanes_add(lanes_splat(l->attenuation[0]), linear), quadratic);
-    share = lanes_multiply(share, lanes_select_greater(left, zero, left, zero));
+    share = lanes_multiply(share, lanes_max(left, zero));
     return lanes_divide(share, divisor);
 }
 

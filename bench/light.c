@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: MIT */
+/* Light on vertices, beside their evaluation. */
+#include "arguments.h"
+#include "bench.h"
+#include "mixes.h"
+
+#include <stdlib.h>
+
+static const char help[] =
+    "usage: limn-bench light [OPTIONS] [MESH]...\n\n"
+    "Evaluates all faces of a mesh, one by one into the same memory, with light and without:\n"
+    "meshes to bake or .limn files with normals, or without any a torus of valence 6. Each figure\n"
+    "is the median of --rounds samples, and each share the median of the shares in them.\n\n"
+    "  ns           per vertex, of position and colour, 16 bytes\n"
+    "  / positions  of the time for positions alone\n\n"
+    "  --level N      0 to 4 (default 4)\n"
+    "  --isa NAME     scalar, sse2, avx2 or neon (default: the best)\n"
+    "  --rounds N     samples of each figure (default 15)\n"
+    "  --quick        3 rounds of short samples\n"
+    "  --csv FILE     writes all figures\n";
+
+enum { ROUND_MAX = 1000, TORUS_SIDE = 64, LIGHT_MAX = 8 };
+
+typedef struct options {
+    uint32_t level, isa, rounds;
+    double sample_seconds;
+    const char *csv;
+} options;
+
+/// What is measured; with normals, those are written, too.
+typedef struct step {
+    const char *name;
+    bool normals, colours;
+    limn_light_mode mode;
+    uint32_t light_count;
+    limn_light_kind kind; ///< of all lights
+} step;
+
+static const step steps[] = {
+    {.name = "positions"},
+    {.name = "and normals", .normals = true},
+    {.name = "ambient", .colours = true},
+    {"1 directional", false, true, LIMN_LIGHT_INTERPOLATED, 1, LIMN_LIGHT_DIRECTIONAL},
+    {"1 point", false, true, LIMN_LIGHT_INTERPOLATED, 1, LIMN_LIGHT_POINT},
+    {"1 spot", false, true, LIMN_LIGHT_INTERPOLATED, 1, LIMN_LIGHT_SPOT},
+    {"4 spots", false, true, LIMN_LIGHT_INTERPOLATED, 4, LIMN_LIGHT_SPOT},
+    {"8 spots", false, true, LIMN_LIGHT_INTERPOLATED, 8, LIMN_LIGHT_SPOT},
+    {"1 directional, exact", false, true, LIMN_LIGHT_EXACT, 1, LIMN_LIGHT_DIRECTIONAL},
+    {"1 point, exact", false, true, LIMN_LIGHT_EXACT, 1, LIMN_LIGHT_POINT},
+    {"1 spot, exact", false, true, LIMN_LIGHT_EXACT, 1, LIMN_LIGHT_SPOT},
+    {"4 spots, exact", false, true, LIMN_LIGHT_EXACT, 4, LIMN_LIGHT_SPOT},
+    {"8 spots, exact", false, true, LIMN_LIGHT_EXACT, 8, LIMN_LIGHT_SPOT},
+};
+
+enum { STEP_COUNT = sizeof steps / sizeof *steps };
+
+/// A mesh, and memory for one patch of it.
+typedef struct subject {
+    bench_mix mix;
+    float *vertices; ///< [row_count][7]
+    limn_light lights[LIGHT_MAX];
+} subject;
+
+/// Around the middle of the mesh, with attenuation and a range.
+static void place_lights(subject *s, limn_light_kind kind) {
+    const limn_mesh *const mesh = &s->mix.mesh;
+    for (int i = 0; i < LIGHT_MAX; i++) {
+        const int axis = i % 3;
+        const float side = i % 2 ? 1.0f : -1.0f;
+        const float size = mesh->bounds_max[axis] - mesh->bounds_min[axis] + 1e-3f;
+        limn_light light = {.kind = kind,
+                            .colour = {0.3f, 0.2f, 0.1f},
+                            .attenuation = {1, 1 / size, 1 / (size * size)},
+                            .range = 4 * size,
+                            .inner_cosine = 0.95f,
+                            .outer_cosine = 0.8f};
+        for (int k = 0; k < 3; k++)
+            light.position[k] = (mesh->bounds_min[k] + mesh->bounds_max[k]) / 2;
+        light.position[axis] += side * size;
+        light.direction[axis] = -side;
+        s->lights[i] = light;
+    }
+}
+
+static void run(const subject *s, const step *which, uint32_t level) {
+    const limn_mesh *const mesh = &s->mix.mesh;
+    const limn_plan plan = limn_plan_uniform(mesh, level);
+    const uint32_t words = 3 + (which->colours ? 1u : 0u) + (which->normals ? 3u : 0u);
+    const limn_lighting lighting = {.mode = which->mode,
+                                    .ambient = {0.1f, 0.1f, 0.1f},
+                                    .lights = s->lights,
+                                    .light_count = which->light_count};
+    for (uint32_t patch = 0; patch < plan.patch_count; patch++) {
+        const uintptr_t skipped = (uintptr_t)limn_plan_first_vertex(&plan, patch) * words * 4;
+        float *const vertices = (float *)((uintptr_t)s->vertices - skipped);
+        limn_evaluate(&plan, mesh->controls, patch, patch + 1,
+                      &(limn_output){.vertices = vertices,
+                                     .stride = words * 4,
+                                     .normals = which->normals ? vertices + 3 : NULL,
+                                     .normal_stride = words * 4,
+                                     .colours = which->colours ? vertices + 3 : NULL,
+                                     .colour_stride = words * 4,
+                                     .lighting = &lighting,
+                                     .control_normals = s->mix.control_normals});
+    }
+}
+
+/// Seconds that one step takes.
+static double sample(subject *s, const step *which, const options *o) {
+    uint32_t runs = 0;
+    double elapsed;
+    place_lights(s, which->kind);
+    run(s, which, o->level); // the one before has emptied the caches
+    const double start = bench_thread_seconds();
+    do {
+        run(s, which, o->level);
+        runs++;
+        elapsed = bench_thread_seconds() - start;
+    } while (elapsed < o->sample_seconds);
+    return elapsed / runs;
+}
+
+/// Prints one step, and reorders its samples.
+static void print_step(const subject *s, const step *which, double *samples,
+                       const double *positions, const options *o, FILE *csv) {
+    const limn_mesh *const mesh = &s->mix.mesh;
+    const double vertex_count = (double)limn_plan_uniform(mesh, o->level).vertex_count;
+    double shares[ROUND_MAX];
+    for (uint32_t round = 0; round < o->rounds; round++)
+        shares[round] = samples[round] / positions[round];
+    const double share = bench_median(shares, o->rounds);
+    const double ns = 1e9 * bench_median(samples, o->rounds) / vertex_count;
+    printf("%-24s %10.3f %12.3f\n", which->name, ns, share);
+    if (csv)
+        fprintf(csv, "%s,%s,%u,\"%s\",%.4f,%.4f\n", s->mix.name, limn_kernels_name(mesh->kernels),
+                o->level, which->name, ns, share);
+}
+
+static void measure(subject *s, const options *o, FILE *csv) {
+    static double samples[STEP_COUNT][ROUND_MAX], positions[ROUND_MAX];
+    for (uint32_t round = 0; round < o->rounds; round++) {
+        for (int i = 0; i < STEP_COUNT; i++)
+            samples[i][round] = sample(s, &steps[i], o);
+        positions[round] = samples[0][round];
+    }
+    printf("\n%s: %u faces, level %u, %s\n%-24s %10s %12s\n", s->mix.name, s->mix.mesh.patch_count,
+           o->level, limn_kernels_name(s->mix.mesh.kernels), "step", "ns", "/ positions");
+    for (int i = 0; i < STEP_COUNT; i++)
+        print_step(s, &steps[i], samples[i], positions, o, csv);
+}
+
+/// `path` NULL: a torus.
+static bool bench_mesh(const char *path, const options *o, FILE *csv) {
+    static subject s;
+    s = (subject){0};
+    if (!(path ? bench_mix_file(&s.mix, path, LIMN_ISOLATE_NEVER)
+               : bench_mix_regular(&s.mix, TORUS_SIDE, LIMN_ISOLATE_NEVER)))
+        return false;
+    limn_mesh *const mesh = &s.mix.mesh;
+    mesh->kernels = limn_kernels_select(o->isa, LIMN_FAMILY_REPRODUCIBLE);
+    s.vertices = malloc(mesh->domain->row_counts[LIMN_LEVEL_MAX] * sizeof(float[7]));
+    const bool good = s.vertices && mesh->normals;
+    if (good) {
+        measure(&s, o, csv);
+    } else {
+        fprintf(stderr, "limn-bench: %s: %s\n", s.mix.name,
+                mesh->normals ? "out of memory" : "bake it with --normals exact");
+    }
+    free(s.vertices);
+    bench_mix_destroy(&s.mix);
+    return good;
+}
+
+static bool bench_all(const options *o, char **paths, int path_count) {
+    limni_output_file csv;
+    if (!bench_results_open(&csv, o->csv)) return false;
+    if (csv.stream) {
+        fprintf(csv.stream, "# ");
+        bench_print_conditions(csv.stream);
+        fprintf(csv.stream, "mesh,isa,level,step,ns_per_vertex,share\n");
+    }
+    bench_print_conditions(stdout);
+    bool good = path_count > 0 || bench_mesh(NULL, o, csv.stream);
+    for (int p = 0; p < path_count; p++)
+        good &= bench_mesh(paths[p], o, csv.stream);
+    return bench_results_close(&csv, o->csv, good);
+}
+
+static bool parse_option(int option, void *parsed) {
+    options *const to = parsed;
+    switch (option) {
+    case 'l':
+        return bench_parse_range(optarg, 0, LIMN_LEVEL_MAX, &to->level);
+    case 'i':
+        return bench_parse_isa(optarg, &to->isa);
+    case 'r':
+        return bench_parse_range(optarg, 1, ROUND_MAX, &to->rounds);
+    case 'q':
+        to->rounds = 3;
+        to->sample_seconds = 3e-4;
+        return true;
+    case 'c':
+        to->csv = optarg;
+        return true;
+    default:
+        return false;
+    }
+}
+
+int bench_light(int argc, char **argv) {
+    static const struct option names[] = {{"level", required_argument, NULL, 'l'},
+                                          {"isa", required_argument, NULL, 'i'},
+                                          {"rounds", required_argument, NULL, 'r'},
+                                          {"quick", no_argument, NULL, 'q'},
+                                          {"csv", required_argument, NULL, 'c'},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {0}};
+    options o = {
+        .level = LIMN_LEVEL_MAX, .isa = LIMN_ISA_ALL, .rounds = 15, .sample_seconds = 2e-3};
+    const int status = bench_read_options(argc, argv, help, names, parse_option, &o);
+    if (status >= 0) return status;
+    return bench_all(&o, argv + optind, argc - optind) ? 0 : 1;
+}
