@@ -8,12 +8,12 @@
 
 static const char help[] =
     "usage: limn-bench light [OPTIONS] [MESH]...\n\n"
-    "Evaluates all faces of a mesh, one by one into the same memory, with light and without:\n"
-    "meshes to bake or .limn files with normals, or without any a torus of valence 6. Each figure\n"
-    "is the median of --rounds samples, and each share the median of the shares in them.\n\n"
+    "Evaluates all faces of a mesh, one by one into the same memory, with light and without, at\n"
+    "levels 4, 2 and 0: meshes to bake or .limn files with normals, or without any a torus of\n"
+    "valence 6. Each figure is the median of --rounds samples, and each share the median of the\n"
+    "shares in them.\n\n"
     "  ns           per vertex, of position and colour, 16 bytes\n"
     "  / positions  of the time for positions alone\n\n"
-    "  --level N      0 to 4 (default 4)\n"
     "  --isa NAME     scalar, sse2, avx2 or neon (default: the best)\n"
     "  --rounds N     samples of each figure (default 15)\n"
     "  --quick        3 rounds of short samples\n"
@@ -22,7 +22,7 @@ static const char help[] =
 enum { ROUND_MAX = 1000, TORUS_SIDE = 64, LIGHT_MAX = 8 };
 
 typedef struct options {
-    uint32_t level, isa, rounds;
+    uint32_t isa, rounds;
     double sample_seconds;
     const char *csv;
 } options;
@@ -106,47 +106,47 @@ static void run(const subject *s, const step *which, uint32_t level) {
 }
 
 /// Seconds that one step takes.
-static double sample(subject *s, const step *which, const options *o) {
+static double sample(subject *s, const step *which, uint32_t level, double least_seconds) {
     uint32_t runs = 0;
     double elapsed;
     place_lights(s, which->kind);
-    run(s, which, o->level); // the one before has emptied the caches
+    run(s, which, level); // the one before has emptied the caches
     const double start = bench_thread_seconds();
     do {
-        run(s, which, o->level);
+        run(s, which, level);
         runs++;
         elapsed = bench_thread_seconds() - start;
-    } while (elapsed < o->sample_seconds);
+    } while (elapsed < least_seconds);
     return elapsed / runs;
 }
 
 /// Prints one step, and reorders its samples.
-static void print_step(const subject *s, const step *which, double *samples,
-                       const double *positions, const options *o, FILE *csv) {
+static void print_step(const subject *s, const step *which, uint32_t level, double *samples,
+                       const double *positions, uint32_t rounds, FILE *csv) {
     const limn_mesh *const mesh = &s->mix.mesh;
-    const double vertex_count = (double)limn_plan_uniform(mesh, o->level).vertex_count;
+    const double vertex_count = (double)limn_plan_uniform(mesh, level).vertex_count;
     double shares[ROUND_MAX];
-    for (uint32_t round = 0; round < o->rounds; round++)
+    for (uint32_t round = 0; round < rounds; round++)
         shares[round] = samples[round] / positions[round];
-    const double share = bench_median(shares, o->rounds);
-    const double ns = 1e9 * bench_median(samples, o->rounds) / vertex_count;
+    const double share = bench_median(shares, rounds);
+    const double ns = 1e9 * bench_median(samples, rounds) / vertex_count;
     printf("%-24s %10.3f %12.3f\n", which->name, ns, share);
     if (csv)
         fprintf(csv, "%s,%s,%u,\"%s\",%.4f,%.4f\n", s->mix.name, limn_kernels_name(mesh->kernels),
-                o->level, which->name, ns, share);
+                level, which->name, ns, share);
 }
 
-static void measure(subject *s, const options *o, FILE *csv) {
+static void measure(subject *s, uint32_t level, const options *o, FILE *csv) {
     static double samples[STEP_COUNT][ROUND_MAX], positions[ROUND_MAX];
     for (uint32_t round = 0; round < o->rounds; round++) {
         for (int i = 0; i < STEP_COUNT; i++)
-            samples[i][round] = sample(s, &steps[i], o);
+            samples[i][round] = sample(s, &steps[i], level, o->sample_seconds);
         positions[round] = samples[0][round];
     }
     printf("\n%s: %u faces, level %u, %s\n%-24s %10s %12s\n", s->mix.name, s->mix.mesh.patch_count,
-           o->level, limn_kernels_name(s->mix.mesh.kernels), "step", "ns", "/ positions");
+           level, limn_kernels_name(s->mix.mesh.kernels), "step", "ns", "/ positions");
     for (int i = 0; i < STEP_COUNT; i++)
-        print_step(s, &steps[i], samples[i], positions, o, csv);
+        print_step(s, &steps[i], level, samples[i], positions, o->rounds, csv);
 }
 
 /// `path` NULL: a torus.
@@ -161,7 +161,8 @@ static bool bench_mesh(const char *path, const options *o, FILE *csv) {
     s.vertices = malloc(mesh->domain->row_counts[LIMN_LEVEL_MAX] * sizeof(float[7]));
     const bool good = s.vertices && mesh->normals;
     if (good) {
-        measure(&s, o, csv);
+        for (int level = LIMN_LEVEL_MAX; level >= 0; level -= 2)
+            measure(&s, (uint32_t)level, o, csv);
     } else {
         fprintf(stderr, "limn-bench: %s: %s\n", s.mix.name,
                 mesh->normals ? "out of memory" : "bake it with --normals exact");
@@ -189,8 +190,6 @@ static bool bench_all(const options *o, char **paths, int path_count) {
 static bool parse_option(int option, void *parsed) {
     options *const to = parsed;
     switch (option) {
-    case 'l':
-        return bench_parse_range(optarg, 0, LIMN_LEVEL_MAX, &to->level);
     case 'i':
         return bench_parse_isa(optarg, &to->isa);
     case 'r':
@@ -208,15 +207,11 @@ static bool parse_option(int option, void *parsed) {
 }
 
 int bench_light(int argc, char **argv) {
-    static const struct option names[] = {{"level", required_argument, NULL, 'l'},
-                                          {"isa", required_argument, NULL, 'i'},
-                                          {"rounds", required_argument, NULL, 'r'},
-                                          {"quick", no_argument, NULL, 'q'},
-                                          {"csv", required_argument, NULL, 'c'},
-                                          {"help", no_argument, NULL, 'h'},
-                                          {0}};
-    options o = {
-        .level = LIMN_LEVEL_MAX, .isa = LIMN_ISA_ALL, .rounds = 15, .sample_seconds = 2e-3};
+    static const struct option names[] = {
+        {"isa", required_argument, NULL, 'i'}, {"rounds", required_argument, NULL, 'r'},
+        {"quick", no_argument, NULL, 'q'},     {"csv", required_argument, NULL, 'c'},
+        {"help", no_argument, NULL, 'h'},      {0}};
+    options o = {.isa = LIMN_ISA_ALL, .rounds = 15, .sample_seconds = 2e-3};
     const int status = bench_read_options(argc, argv, help, names, parse_option, &o);
     if (status >= 0) return status;
     return bench_all(&o, argv + optind, argc - optind) ? 0 : 1;

@@ -179,7 +179,8 @@ static LIMNI_NOINLINE void light_patch(const limn_lighting *lighting, const lit_
         for (size_t row = 0; row < p->row_count; row += LANES_WIDTH)
             lanes_store(&p->colours->axes[axis][row], ambient);
     }
-    if (lighting->mode == LIMN_LIGHT_EXACT) {
+    // At level 0 there is nothing between the corners, where both modes are the same.
+    if (lighting->mode == LIMN_LIGHT_EXACT || p->row_count == p->corner_count) {
         add_lights(SHADE_EXACT, lighting, p);
     } else if (p->corner_count == 3) {
         add_lights(SHADE_TRIANGLE, lighting, p);

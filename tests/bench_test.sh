@@ -33,10 +33,12 @@ expect "no results are left" [ ! -e isolation.csv ]
 expect "a wrong option" sh -c "'$bench' isolation --rounds 0 2>error.txt; [ \$? = 2 ]"
 expect "is named" grep -q -- --rounds error.txt
 
-# 13 steps of a frame
-expect light "$bench" light --quick --rounds 1 --level 2 --csv light.csv "$assets/imp.obj" >light.txt
-expect "steps of light" [ "$(grep -c '^imp.obj,' light.csv)" = 13 ]
+# 13 ways to light vertices, at 3 levels
+expect light "$bench" light --quick --rounds 1 --csv light.csv "$assets/imp.obj" >light.txt
+expect "steps of light" [ "$(grep -c '^imp.obj,' light.csv)" = 39 ]
 expect "every step of light is a time" [ "$(awk -F, '/^imp/ && $(NF - 1) <= 0' light.csv)" = "" ]
+
+# 13 steps of a frame
 expect skin "$bench" skin --quick --rounds 1 --csv skin.csv "$assets/imp.obj" >skin.txt
 expect "steps" [ "$(grep -c '^imp.obj,' skin.csv)" = 13 ]
 expect "every step is a time" [ "$(awk -F, '/^imp/ && $(NF - 1) <= 0' skin.csv)" = "" ]
