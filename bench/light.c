@@ -153,8 +153,8 @@ static void measure(subject *s, uint32_t level, const options *o, FILE *csv) {
 static bool bench_mesh(const char *path, const options *o, FILE *csv) {
     static subject s;
     s = (subject){0};
-    if (!(path ? bench_mix_file(&s.mix, path, LIMN_ISOLATE_NEVER)
-               : bench_mix_regular(&s.mix, TORUS_SIDE, LIMN_ISOLATE_NEVER)))
+    if (!(path ? bench_mix_file(&s.mix, path, (bench_way){0})
+               : bench_mix_regular(&s.mix, TORUS_SIDE, (bench_way){0})))
         return false;
     limn_mesh *const mesh = &s.mix.mesh;
     mesh->kernels = limn_kernels_select(o->isa, LIMN_FAMILY_REPRODUCIBLE);
