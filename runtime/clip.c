@@ -17,7 +17,7 @@ enum { WIDTH_OF_JOINT_MAX = 4 };
 
 static double moment_of(const limn_clip *clip, float time, limn_wrap wrap) {
     const double duration = (double)clip->duration;
-    if (wrap != LIMN_WRAP_LOOP || !(duration > 0)) return (double)time;
+    if (wrap != LIMN_WRAP_REPEAT || !(duration > 0)) return (double)time;
     const double moment = fmod((double)time, duration);
     return moment < 0 ? moment + duration : moment;
 }

@@ -44,7 +44,7 @@ static inline void pose_mesh(const limn_pack *pack, uint32_t m, const limn_clip 
     const size_t size = mesh.control_count * sizeof(float[3]);
     float *const points = character_room(size);
     float *const weights = character_room(targets.target_count * sizeof *weights);
-    limn_clip_morph_weights(pack, m, clip, time, LIMN_WRAP_LOOP, weights);
+    limn_clip_morph_weights(pack, m, clip, time, LIMN_WRAP_REPEAT, weights);
     if (targets.target_count)
         limn_morph_points(&targets, weights, mesh.controls, 0, targets.point_count, points);
     const limn_pose pose = {.skin = &skin, .matrices = matrices};

@@ -7,7 +7,7 @@
  *     limn_skeleton skeleton = limn_pack_skeleton(&pack);
  *     limn_clip clip = limn_pack_clip(&pack, 0);
  *     limn_skin skin = limn_mesh_skin(&pack, 0);
- *     limn_clip_pose(&skeleton, &clip, seconds, LIMN_WRAP_LOOP, matrices);
+ *     limn_clip_pose(&skeleton, &clip, seconds, LIMN_WRAP_REPEAT, matrices);
  *     limn_pose pose = {.skin = &skin, .matrices = matrices};
  *     limn_pose_points(&pose, mesh.controls, 0, skin.point_count, controls);
  *
@@ -65,7 +65,7 @@ limn_clip limn_pack_clip(const limn_pack *pack, uint32_t clip);
 /// track has their values.
 typedef enum limn_wrap {
     LIMN_WRAP_CLAMP, ///< its first and its last moment
-    LIMN_WRAP_LOOP   ///< itself again
+    LIMN_WRAP_REPEAT ///< itself again
 } limn_wrap;
 
 /// The matrices of a skeleton in one moment of a clip, as limn_pose_points() takes them: for each

@@ -295,11 +295,11 @@ static void test_wrap(const scene *s) {
     const limni_gltf_animation *const animation = &s->document.animations[0];
     CHECK_TEXT(bend.name, "bend");
     CHECK(bend.duration == 2);
-    compare(s, 0, animation, &bend, 2.75f, 0.75, LIMN_WRAP_LOOP);
-    compare(s, 0, animation, &bend, -1.5f, 0.5, LIMN_WRAP_LOOP);
+    compare(s, 0, animation, &bend, 2.75f, 0.75, LIMN_WRAP_REPEAT);
+    compare(s, 0, animation, &bend, -1.5f, 0.5, LIMN_WRAP_REPEAT);
     compare(s, 0, animation, &bend, 2.75f, 2, LIMN_WRAP_CLAMP);
     compare(s, 0, animation, &bend, -1, 0, LIMN_WRAP_CLAMP);
-    compare(s, 0, animation, &bend, 4, 0, LIMN_WRAP_LOOP); // begins again
+    compare(s, 0, animation, &bend, 4, 0, LIMN_WRAP_REPEAT); // begins again
 }
 
 static void test_notes(const scene *s) {

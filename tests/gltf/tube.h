@@ -157,7 +157,7 @@ static inline void tube_add_clips(glb *file) {
 
 static inline void tube_make(glb *file) {
     static const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    static const uint8_t faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    static const uint8_t turns[6] = {0, 2, 1, 3, 0, 2}; // a strip
     char primitives[2048] = "";
     memset(file, 0, sizeof *file);
     tube_add_wall(file, primitives, sizeof primitives);
@@ -167,7 +167,7 @@ static inline void tube_make(glb *file) {
     const int others = tube_add_binds(file, "other binds", 0.5f, 1.25f);
     const int solid = glb_floats(file, "solid positions", corners[0], "VEC3", 3, 4);
     const int index =
-        glb_accessor(file, "solid indices", faces, sizeof faces, 5121, "SCALAR", 12, "");
+        glb_accessor(file, "solid indices", turns, sizeof turns, 5121, "SCALAR", 6, "");
     glb_append(
         file->rest, sizeof file->rest,
         "\"scene\":0,\"scenes\":[{\"nodes\":[0,3,4,5,7]}],\"nodes\":["
@@ -182,7 +182,8 @@ static inline void tube_make(glb *file) {
         "\"meshes\":[{\"name\":\"tube\",\"primitives\":[%s],\"weights\":[0.25],"
         "\"extras\":{\"targetNames\":[\"swell\"],\"limn\":{\"creases\":[[0,1,2.5],[1,2,1e3]],"
         "\"corners\":[[3,4]],\"boundary\":\"edge-and-corner\"}}},"
-        "{\"name\":\"solid\",\"primitives\":[{\"attributes\":{\"POSITION\":%d},\"indices\":%d}]}],"
+        "{\"name\":\"solid\",\"primitives\":[{\"mode\":5,\"attributes\":{\"POSITION\":%d},"
+        "\"indices\":%d}]}],"
         "\"skins\":[{\"name\":\"body\",\"joints\":[1,2],\"inverseBindMatrices\":%d},"
         "{\"name\":\"other\",\"joints\":[1,2],\"inverseBindMatrices\":%d}],"
         "\"materials\":[{\"name\":\"wall\",\"pbrMetallicRoughness\":{\"baseColorFactor\":"
