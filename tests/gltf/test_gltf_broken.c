@@ -11,11 +11,33 @@ typedef struct outcome {
     limn_bake_status status;
     char error[1024], notes[8192];
     uint32_t source_count, influence_count, position_count;
+    uint32_t channel_count, value_counts[2]; ///< of the first mesh, as the next ones
+    limni_tags tags;
 } outcome;
 
 static void keep_note(void *user, const char *text) {
     outcome *const o = user;
     glb_append(o->notes, sizeof o->notes, "%s\n", text);
+}
+
+/// Returns how many values there are.
+static uint32_t check_channel(const limni_source *source, uint32_t c) {
+    static const char *const names[] = {"uv", "colour"};
+    const limni_source_channel *const channel = &source->channels[c];
+    CHECK_TEXT(channel->name, names[c]);
+    CHECK_EQUAL(channel->component_count, 2 + c);
+    for (uint32_t k = 0; k < source->face_offsets[source->face_count]; k++)
+        CHECK(channel->corner_values[k] < channel->value_count);
+    return channel->value_count;
+}
+
+/// Vertices 0 to 3 are the first four positions.
+static void check_creases(const limni_tags *tags) {
+    for (uint32_t c = 0; c < tags->crease_count; c++) {
+        CHECK_EQUAL(tags->creases[c].a, c);
+        CHECK_EQUAL(tags->creases[c].b, c + 1);
+    }
+    if (tags->sharp_vertex_count) CHECK_EQUAL(tags->sharp_vertices[0].position, 3);
 }
 
 static outcome read_bytes(const unsigned char *bytes, size_t size) {
@@ -33,6 +55,11 @@ static outcome read_bytes(const unsigned char *bytes, size_t size) {
         o.source_count = scene.source_count;
         o.influence_count = scene.sources[0].rig.influence_count;
         o.position_count = scene.sources[0].position_count;
+        o.channel_count = scene.sources[0].channel_count;
+        for (uint32_t c = 0; c < o.channel_count && c < 2; c++)
+            o.value_counts[c] = check_channel(&scene.sources[0], c);
+        check_creases(&scene.sources[0].tags);
+        o.tags = scene.sources[0].tags;
     }
     limni_release_all(&context);
     return o;
@@ -213,6 +240,9 @@ static void test_mended(glb *file) {
     memcpy(find_bytes(&changed, first, 4), half, 4);
     o = read_changed(&changed, "\"scene\":0", "\"scene\":0");
     expect_note(&o, "mesh 0 'tube': mended: the weights of 1 vertices did not sum to 1");
+    o = read_changed(file, "\"WEIGHTS_0\":4}", "\"WEIGHTS_0\":4,\"JOINTS_1\":3,\"WEIGHTS_1\":4}");
+    expect_note(&o, "mesh 0 'tube': mended: the weights of 28 vertices did not sum to 1");
+    CHECK_EQUAL(o.influence_count, 2); // the same joints
     o = read_changed(file, "\"mode\":6,", "\"mode\":1,");
     expect_note(&o, "mesh 0 'tube', primitive 1: it has no triangles; it is passed over");
     o = read_changed(file, "\"COLOR_0\":", "\"_TEMPERATURE\":");
@@ -252,6 +282,12 @@ int main(void) {
     CHECK_EQUAL(good.status, LIMN_BAKE_OK);
     CHECK_EQUAL(good.source_count, 4);
     CHECK_EQUAL(good.influence_count, 2);
+    CHECK_EQUAL(good.channel_count, 2);
+    CHECK_EQUAL(good.value_counts[0], TUBE_VERTICES + LID_VERTICES - 1); // the seam has two
+    CHECK_EQUAL(good.value_counts[1], 25 + LID_VERTICES - 1);
+    CHECK_EQUAL(good.tags.crease_count, 2);
+    CHECK_EQUAL(good.tags.sharp_vertex_count, 1);
+    CHECK_EQUAL(good.tags.boundary, LIMN_BOUNDARY_EDGE_AND_CORNER);
     test_refusals(&file);
     test_numbers(&file);
     test_mended(&file);
