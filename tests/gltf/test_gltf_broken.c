@@ -5,6 +5,7 @@
  */
 #include "../../baker/scene.h"
 #include "check.h"
+#include "limn/limn.h"
 #include "tube.h"
 
 typedef struct outcome {
@@ -13,6 +14,8 @@ typedef struct outcome {
     uint32_t source_count, influence_count, position_count;
     uint32_t channel_count, value_counts[2]; ///< of the first mesh, as the next ones
     limni_tags tags;
+    uint16_t joints[LIMN_INFLUENCE_MAX]; ///< of its first position
+    float weights[LIMN_INFLUENCE_MAX];
 } outcome;
 
 static void keep_note(void *user, const char *text) {
@@ -55,6 +58,8 @@ static outcome read_bytes(const unsigned char *bytes, size_t size) {
         o.source_count = scene.source_count;
         o.influence_count = scene.sources[0].rig.influence_count;
         o.position_count = scene.sources[0].position_count;
+        memcpy(o.joints, scene.sources[0].rig.joints, o.influence_count * sizeof *o.joints);
+        memcpy(o.weights, scene.sources[0].rig.weights, o.influence_count * sizeof *o.weights);
         o.channel_count = scene.sources[0].channel_count;
         for (uint32_t c = 0; c < o.channel_count && c < 2; c++)
             o.value_counts[c] = check_channel(&scene.sources[0], c);
@@ -263,6 +268,52 @@ static void test_mended(glb *file) {
     CHECK_CONTAINS(o.notes, "6 positions have the place of another and are kept apart");
 }
 
+// ---- Many influences
+
+enum { MANY = 10 };
+
+/// A triangle whose first vertex follows ten joints, in sets of four.
+static void make_many(glb *file) {
+    static const float corners[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    char attributes[256] = "", nodes[256] = "", joints_of_skin[64] = "";
+    memset(file, 0, sizeof *file);
+    const int position = glb_floats(file, "corners", corners[0], "VEC3", 3, 3);
+    for (int set = 0; 4 * set < MANY; set++) {
+        uint8_t joints[3][4] = {{0}};
+        float weights[3][4] = {{0}};
+        for (int i = 0; i < 4 && 4 * set + i < MANY; i++) {
+            joints[0][i] = (uint8_t)(4 * set + i);
+            weights[0][i] = (float)(1 + (4 * set + i) * 7 % MANY) / 55; // 1 to 10 of 55
+        }
+        weights[1][0] = weights[2][0] = set == 0;
+        const int joint = glb_accessor(file, "j", joints, sizeof joints, 5121, "VEC4", 3, "");
+        const int weight = glb_floats(file, "w", weights[0], "VEC4", 4, 3);
+        glb_append(attributes, sizeof attributes, ",\"JOINTS_%d\":%d,\"WEIGHTS_%d\":%d", set, joint,
+                   set, weight);
+    }
+    for (int j = 0; j < MANY; j++) {
+        glb_append(nodes, sizeof nodes, ",{}");
+        glb_append(joints_of_skin, sizeof joints_of_skin, "%s%d", j ? "," : "", j + 1);
+    }
+    glb_append(file->rest, sizeof file->rest,
+               "\"nodes\":[{\"mesh\":0,\"skin\":0}%s],\"skins\":[{\"joints\":[%s]}],"
+               "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":%d%s}}]}]",
+               nodes, joints_of_skin, position, attributes);
+}
+
+/// The two weakest are dropped: those of joints 0 and 3, with 1 and 2 of 55.
+static void test_many(void) {
+    static glb file;
+    make_many(&file);
+    const outcome o = read_changed(&file, "\"nodes\"", "\"nodes\"");
+    expect_note(&o, "2 influences dropped: a vertex has more than 8, and the strongest stay");
+    CHECK_EQUAL(o.influence_count, LIMN_INFLUENCE_MAX);
+    for (uint32_t i = 0; i < LIMN_INFLUENCE_MAX; i++) {
+        CHECK_NEAR(o.weights[i], (10 - (float)i) / 52, 1e-6f);
+        CHECK_EQUAL(o.joints[i] * 7u % MANY + 1, 10 - i);
+    }
+}
+
 /// Bytes that end anywhere are refused, or as good as whole.
 static void test_truncated(const glb *file) {
     static char json[1 << 16];
@@ -291,6 +342,7 @@ int main(void) {
     test_refusals(&file);
     test_numbers(&file);
     test_mended(&file);
+    test_many();
     test_truncated(&file);
     return check_report();
 }
