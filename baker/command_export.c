@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "command.h"
 #include "dense.h"
+#include "moment.h"
 #include "output_file.h"
 
 #include <getopt.h>
@@ -9,8 +10,8 @@
 
 static const char help[] =
     "usage: limn export FILE.limn --level L|--eye X,Y,Z -o OUT.obj|OUT.ply [OPTIONS]\n\n"
-    "Writes the triangles that a frame draws of the bind pose: everything at one level, or with\n"
-    "levels of detail for an eye.\n\n"
+    "Writes the triangles that a frame draws: everything at one level, or with levels of detail\n"
+    "for an eye; of the bind pose, or in a moment of a clip.\n\n"
     "  -o, --output FILE       .obj (text) or .ply (binary)\n"
     "  -l, --level L           0 (3 vertices per face) to 4 (153, of 256 triangles); between\n"
     "                          whole numbers, the next level on its way (morphing)\n"
@@ -114,30 +115,42 @@ static limn_bake_status write_meshes(limni_context *context, const limni_dense *
     return limni_fail(context, LIMN_BAKE_IO, "%s: %s", given->output, file.error);
 }
 
-static limn_bake_status export_pack(limni_context *context, const limn_pack *pack,
-                                    arguments *given) {
-    const limni_bounds bounds = limni_bounds_of(pack, 0, pack->mesh_count);
+static limn_bake_status export_moment(limni_context *context, const limni_moment *moment,
+                                      arguments *given) {
+    const limni_bounds bounds = limni_moment_bounds(moment);
+    const uint32_t mesh_count = moment->mesh_count;
     limni_frame frame;
     if (!limni_frame_resolve(&given->frame, &bounds, &frame))
         return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s", given->frame.error);
-    limni_dense *const meshes = limni_allocate(context, pack->mesh_count, sizeof *meshes);
+    limni_dense *const meshes = limni_allocate(context, mesh_count, sizeof *meshes);
     if (!meshes) return LIMN_BAKE_MEMORY;
     uint64_t vertex_count = 0;
-    for (uint32_t m = 0; m < pack->mesh_count; m++) {
-        const limn_mesh mesh = limn_pack_mesh(pack, m);
-        LIMNI_TRY(limni_dense_build(context, &mesh, &frame, given->weld, &meshes[m]));
+    for (uint32_t m = 0; m < mesh_count; m++) {
+        LIMNI_TRY(
+            limni_dense_build(context, &moment->meshes[m].mesh, &frame, given->weld, &meshes[m]));
         vertex_count += meshes[m].vertex_count;
     }
     if (vertex_count > UINT32_MAX)
         return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: too many vertices for one file",
                           given->output);
-    LIMNI_TRY(write_meshes(context, meshes, pack->mesh_count, given));
-    for (uint32_t m = 0; m < pack->mesh_count; m++) {
+    LIMNI_TRY(write_meshes(context, meshes, mesh_count, given));
+    for (uint32_t m = 0; m < mesh_count; m++) {
         printf("%s: %s: %u vertices, %llu triangles\n", given->output, meshes[m].name,
                meshes[m].vertex_count, (unsigned long long)(meshes[m].index_count / 3));
         print_notes(&meshes[m], frame.desc.vertex_budget);
     }
     return LIMN_BAKE_OK;
+}
+
+static limn_bake_status export_pack(limni_context *context, const limn_pack *pack,
+                                    arguments *given) {
+    limni_moment moment;
+    const limn_bake_status status =
+        limni_moment_make(&moment, pack, 0, pack->mesh_count, &given->frame)
+            ? export_moment(context, &moment, given)
+            : limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s", given->frame.error);
+    limni_moment_free(&moment);
+    return status;
 }
 
 int limni_command_export(int argc, char **argv) {

@@ -17,7 +17,7 @@ typedef struct limni_dense {
     uint64_t evaluated_count; ///< vertices of the plan: before unused ones were dropped
 } limni_dense;
 
-/// Plans and evaluates the bind pose. Every vertex is used by a triangle. With `weld`, vertices
+/// Plans and evaluates the mesh with its own control points. Every vertex is used by a triangle. With `weld`, vertices
 /// that neighbouring patches share become one where their positions have equal bits; otherwise
 /// every patch keeps its own.
 limn_bake_status limni_dense_build(limni_context *context, const limn_mesh *mesh,

@@ -4,19 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-limni_bounds limni_bounds_of(const limn_pack *pack, uint32_t first, uint32_t count) {
-    limni_bounds bounds = {0};
-    for (uint32_t m = 0; m < count; m++) {
-        const limn_mesh mesh = limn_pack_mesh(pack, first + m);
-        for (int axis = 0; axis < 3; axis++) {
-            const float low = mesh.bounds_min[axis], high = mesh.bounds_max[axis];
-            bounds.min[axis] = m == 0 ? low : fminf(bounds.min[axis], low);
-            bounds.max[axis] = m == 0 ? high : fmaxf(bounds.max[axis], high);
-        }
-    }
-    return bounds;
-}
-
 /// Gives a vector unit length. Returns the length it had.
 static double normalise(double vector[3]) {
     const double length = hypot(hypot(vector[0], vector[1]), vector[2]);

@@ -10,9 +10,6 @@ typedef struct limni_bounds {
     float min[3], max[3];
 } limni_bounds;
 
-/// The bounds of meshes [first, first + count) of a pack, in the bind pose.
-limni_bounds limni_bounds_of(const limn_pack *pack, uint32_t first, uint32_t count);
-
 /// A perspective camera, complete.
 typedef struct limni_camera {
     float eye[3], target[3], up[3];

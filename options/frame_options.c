@@ -37,6 +37,7 @@ static const struct {
     {LIMNI_FRAME_FAR, MEMBER(far_plane), 1e-15f, 1e15f, "a distance above 0"},
     {LIMNI_FRAME_TOLERANCE, MEMBER(desc.pixels), 1e-3f, 1e6f, "0.001 to 1000000 pixels"},
     {LIMNI_FRAME_BIAS, MEMBER(desc.bias), -16, 16, "a number from -16 to 16"},
+    {LIMNI_FRAME_TIME, MEMBER(time), 0, 1e6f, "a time from 0 to 1000000 seconds"},
 #undef MEMBER
 };
 
@@ -94,6 +95,9 @@ static bool parse(limni_frame_options *options, int key, const char *text, const
         return parse_budget(text, &options->desc.vertex_budget);
     case LIMNI_FRAME_NO_MORPH:
         return options->desc.no_morph = true;
+    case LIMNI_FRAME_CLIP:
+        options->clip = text;
+        return true;
     case LIMNI_FRAME_CULL:
         return true;
     default:
@@ -151,6 +155,12 @@ static bool check_eye(limni_frame_options *options) {
     return true;
 }
 
+static bool check_time(limni_frame_options *options) {
+    return !limni_frame_given(options, LIMNI_FRAME_TIME) ||
+           limni_frame_given(options, LIMNI_FRAME_CLIP) ||
+           limni_frame_refuse(options, "--time: there is no --clip");
+}
+
 static bool check_limits(limni_frame_options *options) {
     return options->min_level <= options->max_level ||
            limni_frame_refuse(options, "--min-level %g: is above --max-level %g",
@@ -168,5 +178,6 @@ static void set_defaults(limni_frame_options *options) {
 
 bool limni_frame_options_check(limni_frame_options *options) {
     set_defaults(options);
-    return check_level(options) && check_eye(options) && check_limits(options);
+    return check_level(options) && check_eye(options) && check_time(options) &&
+           check_limits(options);
 }

@@ -28,7 +28,9 @@
     X(MIN_LEVEL, "min-level", required_argument)                                                   \
     X(MAX_LEVEL, "max-level", required_argument)                                                   \
     X(BUDGET, "budget", required_argument)                                                         \
-    X(NO_MORPH, "no-morph", no_argument)
+    X(NO_MORPH, "no-morph", no_argument)                                                           \
+    X(CLIP, "clip", required_argument)                                                             \
+    X(TIME, "time", required_argument)
 
 /// What getopt_long() returns for them: above all characters.
 enum limni_frame_key {
@@ -65,7 +67,9 @@ enum limni_frame_key {
     "                          limits of all levels, 0 to 4\n"                                     \
     "      --budget N          lower the levels of each mesh until it has at most N vertices,\n"   \
     "                          or all are at the lowest\n"                                         \
-    "      --no-morph          round levels up instead of morphing\n"
+    "      --no-morph          round levels up instead of morphing\n"                              \
+    "      --clip NAME         a moment of an animation clip; default the bind pose\n"             \
+    "      --time T            of the clip, in seconds; default 0\n"
 
 typedef struct limni_frame_options {
     uint32_t given; ///< see limni_frame_given()
@@ -75,7 +79,9 @@ typedef struct limni_frame_options {
     float near_plane, far_plane;
     float min_level, max_level;
     limn_lod_desc desc; ///< all but the limits
-    char error[256];    ///< after a failure: what is wrong, with the option and its value
+    const char *clip;
+    float time;      ///< seconds
+    char error[256]; ///< after a failure: what is wrong, with the option and its value
 } limni_frame_options;
 
 /// Reads the argument `text` of the option that getopt_long() returned as `key`, from

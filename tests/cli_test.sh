@@ -12,6 +12,7 @@ if [ $# -ne 3 ]; then
 fi
 case $1 in */*) limn=$(cd "$(dirname "$1")" && pwd)/$(basename "$1") ;; *) limn=$1 ;; esac
 assets=$(cd "$2" && pwd) || exit 1
+character=$(cd "$(dirname "$0")" && pwd)/fuzz/corpus/gltf/character.gltf
 
 # Never touch what somebody else keeps in the folder: everything happens in one of our own.
 mkdir -p "$3" || exit 1
@@ -623,6 +624,17 @@ works export sail.limn --level 2 --weld -o sail.obj
 works bake -q sail.obj -o again.limn
 works export torus.limn --level 0 -o far/out.ply
 
+# A moment of a clip.
+works bake -q "$character" -o character.limn
+works export character.limn --level 1 -o bind.obj
+works export character.limn --level 1 -o start.obj --clip 'animation 0'
+works export character.limn --level 1 -o later.obj --clip 'animation 0' --time 0.5
+cmp -s bind.obj later.obj && fail "export --clip: nothing moves"
+cmp -s start.obj later.obj && fail "export --time: nothing moves"
+refuses 1 "clip 'walk': the file has animation 0" export character.limn --level 1 -o new.obj --clip walk
+refuses 1 "clip 'walk': the file has no clips" export torus.limn --level 1 -o new.obj --clip walk
+refuses 2 'time: there is no --clip' export torus.limn --level 1 -o new.obj --time 1
+refuses 2 "time '-1': not a time" export torus.limn --level 1 -o new.obj --time -1
 refuses 2 'no level and no eye' export torus.limn -o new.obj
 refuses 2 'no output' export torus.limn --level 2
 refuses 2 'one .limn file' export --level 2 -o new.obj

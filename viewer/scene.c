@@ -123,7 +123,9 @@ static bool list_templates(const limn_domain *domain, view_templates *templates)
 
 static bool evaluate_meshes(view_scene *scene, limni_frame_options options, const view_light *light,
                             uint32_t first, uint32_t count) {
-    const limni_bounds bounds = limni_bounds_of(&scene->pack, first, count);
+    if (!limni_moment_make(&scene->moment, &scene->pack, first, count, &options))
+        return view_fail("%s", options.error);
+    const limni_bounds bounds = limni_moment_bounds(&scene->moment);
     if (!limni_frame_resolve(&options, &bounds, &scene->frame))
         return view_fail("%s", options.error);
     scene->light_mode = light->mode;
@@ -133,7 +135,7 @@ static bool evaluate_meshes(view_scene *scene, limni_frame_options options, cons
     if (!scene->surfaces) return view_fail("out of memory for %u meshes", count);
     for (uint32_t i = 0; i < count; i++) {
         scene->surface_count = i + 1;
-        scene->surfaces[i].mesh = limn_pack_mesh(&scene->pack, first + i);
+        scene->surfaces[i].mesh = scene->moment.meshes[i].mesh;
         const limn_domain *const domain = scene->surfaces[i].mesh.domain;
         if (!list_templates(domain, &scene->templates[domain->kind]) ||
             !evaluate_surface(scene, &scene->surfaces[i]))
@@ -168,6 +170,7 @@ void view_scene_close(view_scene *scene) {
         view_control_mesh_free(&scene->surfaces[i].control_mesh);
     }
     free(scene->surfaces);
+    limni_moment_free(&scene->moment);
     for (int domain = 0; domain < LIMN_DOMAIN_COUNT; domain++) {
         free(scene->templates[domain].indices);
         free(scene->templates[domain].templates);

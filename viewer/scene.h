@@ -8,6 +8,7 @@
 #include "control_mesh.h"
 #include "light.h"
 #include "limn/limn.h"
+#include "moment.h"
 #include <stdbool.h>
 
 /// One vertex as it is drawn.
@@ -38,6 +39,7 @@ typedef struct view_surface {
 typedef struct view_scene {
     limni_blob_file blob;
     limn_pack pack;
+    limni_moment moment;
     limni_frame frame;
     view_light_mode light_mode;
     view_lamps lamps;                            ///< unless that is VIEW_LIGHT_NONE
