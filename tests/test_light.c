@@ -76,16 +76,20 @@ static void open_baked(subject *s, limn_bake_status added) {
         abort();
     s->mesh = limn_pack_mesh(&pack, 0);
     s->control_normals = allocate(s->mesh.normal_count, sizeof(float[3]));
-    limn_mesh_control_normals(&s->mesh, s->mesh.controls, s->control_normals);
+    if (s->mesh.normals) limn_mesh_control_normals(&s->mesh, s->mesh.controls, s->control_normals);
     place_lights(s);
 }
 
-static void load(subject *s, const char *name, limn_bake_desc desc) {
+static void load_as(subject *s, const char *name, limn_bake_desc desc) {
     char path[4096];
     snprintf(path, sizeof path, "%s/%s", getenv("LIMN_ASSETS"), name);
-    desc.normals = LIMN_NORMALS_EXACT;
     s->baker = limn_baker_create(&desc);
     open_baked(s, limn_baker_add_file(s->baker, path));
+}
+
+static void load(subject *s, const char *name, limn_bake_desc desc) {
+    desc.normals = LIMN_NORMALS_EXACT;
+    load_as(s, name, desc);
 }
 
 /// With flat sides: of two triangles each, or a quad.
@@ -450,6 +454,35 @@ static void test_mesh(const char *name, limn_bake_desc desc) {
     unload(&s);
 }
 
+/// A mesh without normals is lit by those that the caller brings.
+static void test_without_normals(void) {
+    subject with, without;
+    load(&with, "imp.obj", (limn_bake_desc){0});
+    load_as(&without, "imp.obj", (limn_bake_desc){0});
+    const limn_plan plans[2] = {limn_plan_uniform(&with.mesh, 3),
+                                limn_plan_uniform(&without.mesh, 3)};
+    const size_t count = (size_t)plans[0].vertex_count;
+    uint32_t(*const colours)[2] = allocate(count, sizeof *colours);
+    CHECK(!without.mesh.normals);
+    for (int i = 0; i < 2; i++) {
+        float *const positions = allocate(count, sizeof(float[3]));
+        limn_evaluate(&plans[i], with.mesh.controls, 0, plans[i].patch_count,
+                      &(limn_output){.vertices = positions,
+                                     .control_normals = with.control_normals,
+                                     .colours = &colours[0][i],
+                                     .colour_stride = sizeof *colours,
+                                     .lighting = &with.lighting});
+        free(positions);
+    }
+    bool same = true;
+    for (size_t v = 0; v < count; v++)
+        same &= colours[v][0] == colours[v][1] && colours[v][0] != 0;
+    CHECK(same);
+    free(colours);
+    unload(&with);
+    unload(&without);
+}
+
 // ---- One face
 
 static bool is_black(const vertex *v) {
@@ -574,6 +607,7 @@ int main(void) {
         test_spot((limn_domain_kind)domain);
         test_creases((limn_domain_kind)domain);
     }
+    test_without_normals();
     test_at_the_light();
     test_refused();
     return check_report();

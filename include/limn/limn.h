@@ -418,11 +418,12 @@ void limn_pose_points(const limn_pose *pose, const float *points, uint32_t begin
                       float *out);
 
 /// Turns normals [begin, end) of the bind pose as the points at them are turned (Brickhill), for
-/// those who light control points so. Wrong, by any angle, where joints change the shape of the
+/// LIMN_LIGHT_INTERPOLATED as he has it. Wrong, by any angle, where joints change the shape of the
 /// surface, as a normal knows only the joints of its own control point (his Figure 6).
 /// limn_mesh_control_normals() after limn_pose_points() is exact and costs as much. As
-/// limn_output.control_normals they would show: all other rows have exact normals. Does not
-/// allocate, never fails; any number of threads may take disjoint ranges.
+/// limn_output.control_normals of written normals or of LIMN_LIGHT_EXACT they would show: all other
+/// rows have exact normals. Does not allocate, never fails; any number of threads may take disjoint
+/// ranges.
 ///
 /// mesh        has normals, and skin->point_count control points, which are its base vertices (a mesh
 ///             that has been divided has others)
@@ -502,8 +503,8 @@ typedef struct limn_light {
 /// Where normals are taken for max(0, n . w). What arrives of a light, and whether a spot reaches a
 /// vertex, is found at every vertex with both.
 typedef enum limn_light_mode {
-    LIMN_LIGHT_INTERPOLATED, ///< at the limits of base vertices, and linear over each patch, on
-                             ///< quads bilinear (Brickhill): no normals between them are needed
+    LIMN_LIGHT_INTERPOLATED, ///< at the limits of base vertices, and linear over each patch, of
+                             ///< quads in u and in v (Brickhill): no normals between them are needed
     LIMN_LIGHT_EXACT         ///< at every vertex; costs its normal, whether written or not
 } limn_light_mode;
 
@@ -680,11 +681,10 @@ typedef struct limn_output {
     uint32_t normal_stride; ///< bytes from normal to normal, a multiple of the alignment; 0 means
                             ///< tightly packed, so inside the vertices it is never 0
     limn_normal_format normal_format;
-    void
-        *colours; ///< colour of vertex 0 of the plan, aligned to 4 bytes: red, green and blue, each
-                  ///< 255 times a light of 0 to 1, clamped and rounded to the nearest, and 255;
-                  ///< linear, as glTF's vertex colours are. In a stream of its own, or inside the
-                  ///< vertices, with the same stride; NULL: no colours
+    /// Colour of vertex 0 of the plan, aligned to 4 bytes: red, green and blue, each 255 times a
+    /// light of 0 to 1, clamped and rounded to the nearest, and 255; linear, as glTF's vertex colours
+    /// are. In a stream of its own, or inside the vertices, with the same stride; NULL: no colours.
+    void *colours;
     uint32_t colour_stride;        ///< bytes from colour to colour, as for normals
     const limn_lighting *lighting; ///< needed with `colours`
     /// [mesh->normal_count][3] from limn_mesh_control_normals(), for the corners of the patches;
