@@ -22,24 +22,24 @@ static const char background_fragment_source[] =
     "    color = vec4(mix(vec3(0.030, 0.029, 0.029), vec3(0.150, 0.157, 0.168), t), 1);\n"
     "}\n";
 
-static const char
-    surface_vertex_source[] = "layout(location = 0) in vec3 position;\n"
-                              "layout(location = 1) in vec3 normal;\n"
-                              "layout(location = 2) in vec4 borders;\n"
-                              "layout(location = 3) in float level;\n"
-                              "layout(location = 4) in vec4 light;\n"
-                              "uniform mat4 view, projection;\n"
-                              "out Surface { vec3 position, normal, light; float level; } "
-                              "surface;\n" // towards the viewer is +Z
-                              "out vec4 vertex_borders;\n"
-                              "void main() {\n"
-                              "    surface.position = (view * vec4(position, 1)).xyz;\n"
-                              "    surface.normal = mat3(view) * normal;\n"
-                              "    surface.level = level;\n"
-                              "    surface.light = light.rgb;\n"
-                              "    vertex_borders = borders;\n"
-                              "    gl_Position = projection * vec4(surface.position, 1);\n"
-                              "}\n";
+// Positions and normals go on with +Z towards the viewer.
+static const char surface_vertex_source[] =
+    "layout(location = 0) in vec3 position;\n"
+    "layout(location = 1) in vec3 normal;\n"
+    "layout(location = 2) in vec4 borders;\n"
+    "layout(location = 3) in float level;\n"
+    "layout(location = 4) in vec4 light;\n"
+    "uniform mat4 view, projection;\n"
+    "out Surface { vec3 position, normal, light; float level; } surface;\n"
+    "out vec4 vertex_borders;\n"
+    "void main() {\n"
+    "    surface.position = (view * vec4(position, 1)).xyz;\n"
+    "    surface.normal = mat3(view) * normal;\n"
+    "    surface.level = level;\n"
+    "    surface.light = light.rgb;\n"
+    "    vertex_borders = borders;\n"
+    "    gl_Position = projection * vec4(surface.position, 1);\n"
+    "}\n";
 
 // Gives every corner its distance in pixels from each of the three sides, and from each border of
 // the patch. The latter is right in triangles, too, that a wide border line crosses with no side of

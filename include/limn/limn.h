@@ -500,12 +500,13 @@ typedef struct limn_light {
                           ///< a hard edge
 } limn_light;
 
-/// Where normals are taken for max(0, n . w). What arrives of a light, and whether a spot reaches a
-/// vertex, is found at every vertex with both.
+/// Where max(0, n . w) is found. What arrives of a light, and whether a spot reaches a vertex, is
+/// found at every vertex in both modes.
 typedef enum limn_light_mode {
-    LIMN_LIGHT_INTERPOLATED, ///< at the limits of base vertices, and linear over each patch, of
-                             ///< quads in u and in v (Brickhill): no normals between them are needed
-    LIMN_LIGHT_EXACT         ///< at every vertex; costs its normal, whether written or not
+    /// At the limits of base vertices, and linear over each patch, of quads in u and in v
+    /// (Brickhill): no normals between them are needed.
+    LIMN_LIGHT_INTERPOLATED,
+    LIMN_LIGHT_EXACT ///< at every vertex; costs its normal, whether written or not
 } limn_light_mode;
 
 /// All light of a frame: each light adds to `ambient` in the order of the array.
