@@ -435,18 +435,18 @@ static void test_morphing(subject *s) {
     free(memory);
 }
 
-/// Levels 0 to 3 by scalar kernels, and the last of them by all.
+/// Levels 0 to 2 by scalar kernels, and the last of them by all.
 static void test_mesh(const char *name, limn_bake_desc desc) {
     subject s;
     load(&s, name, desc);
     for (int mode = 0; mode < 2; mode++) {
         s.lighting.mode = (limn_light_mode)mode;
-        for (uint32_t level = 0; level <= 3; level++)
+        for (uint32_t level = 0; level <= 2; level++)
             test_rows(&s, limn_kernels_select(0, LIMN_FAMILY_REPRODUCIBLE), level, level == 2);
         for (uint32_t isa = LIMN_ISA_SSE2; isa <= LIMN_ISA_NEON; isa <<= 1) {
             if (!(limn_isa_supported() & isa)) continue;
             for (int family = 0; family < 2; family++)
-                test_rows(&s, limn_kernels_select(isa, (limn_family)family), 3, false);
+                test_rows(&s, limn_kernels_select(isa, (limn_family)family), 2, false);
         }
         test_alone(&s);
         test_morphing(&s);
