@@ -64,7 +64,8 @@ static bool open_scene(scene *s, const char *path, bool images) {
     const bool parsed =
         limni_gltf_parse(&s->context, path, bytes, size, &s->document) == LIMN_BAKE_OK;
     free(bytes);
-    s->baker = limn_baker_create(&(limn_bake_desc){.note = keep_note, .user = s, .images = images});
+    s->baker = limn_baker_create(&(limn_bake_desc){
+        .isolate = LIMN_ISOLATE_ALWAYS, .note = keep_note, .user = s, .images = images});
     if (!CHECK(parsed) || !CHECK_EQUAL(limn_baker_add_file(s->baker, path), LIMN_BAKE_OK) ||
         !CHECK_EQUAL(limn_baker_finish(s->baker, &blob, &size), LIMN_BAKE_OK)) {
         fprintf(stderr, "    %s\n", limn_baker_error(s->baker));
