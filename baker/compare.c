@@ -131,13 +131,13 @@ typedef struct subject {
 } subject;
 
 static limn_bake_status read_subject(limni_context *context, const limn_pack *pack,
-                                     const char *path, recipe *r, subject *s) {
+                                     const char *name, const char *path, recipe *r, subject *s) {
     char boundary[32], creases[32], creasing[32];
     limni_source source = {0}, again = {0};
     context->desc.scheme = r->rules.scheme;
-    LIMNI_TRY(limni_read_file(context, path, &source));
+    LIMNI_TRY(limni_read_mesh(context, path, name, &source));
     LIMNI_TRY(limni_mesh_build(context, &source, &s->built));
-    LIMNI_TRY(limni_read_file(context, path, &again));
+    LIMNI_TRY(limni_read_mesh(context, path, name, &again));
     LIMNI_TRY(limni_mesh_begin(context, &again, &s->whole));
     limni_info_value(pack->info, "boundary", boundary, sizeof boundary);
     limni_info_value(pack->info, "creases", creases, sizeof creases);
@@ -357,7 +357,7 @@ limn_bake_status limni_compare(limni_context *context, const limn_pack *pack, co
     recipe baked;
     answer given = {0};
     LIMNI_TRY(read_scheme(context, pack, mesh, &baked));
-    LIMNI_TRY(read_subject(context, pack, path, &baked, &read));
+    LIMNI_TRY(read_subject(context, pack, mesh->name, path, &baked, &read));
     LIMNI_TRY(check_same(context, mesh, &read));
     LIMNI_TRY(oracle(context, &baked, &read, mesh->normals, &given));
 

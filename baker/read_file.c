@@ -137,13 +137,23 @@ limn_bake_status limni_read_scene(limni_context *context, const char *path, limn
     return LIMN_BAKE_OK;
 }
 
-limn_bake_status limni_read_file(limni_context *context, const char *path, limni_source *source) {
+limn_bake_status limni_read_mesh(limni_context *context, const char *path, const char *name,
+                                 limni_source *source) {
     limni_character character = {0};
     limni_scene scene = {.character = &character};
     LIMNI_TRY(limni_read_scene(context, path, &scene));
-    if (scene.source_count > 1)
-        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: it has %u meshes, and one is needed",
-                          path, scene.source_count);
-    *source = scene.sources[0];
-    return LIMN_BAKE_OK;
+    for (uint32_t s = 0; s < scene.source_count; s++) {
+        *source = scene.sources[s];
+        if (scene.source_count == 1 || (name && strcmp(source->name, name) == 0))
+            return LIMN_BAKE_OK;
+    }
+    if (name)
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: it has %u meshes, but no '%s'", path,
+                          scene.source_count, name);
+    return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: it has %u meshes, and one is needed", path,
+                      scene.source_count);
+}
+
+limn_bake_status limni_read_file(limni_context *context, const char *path, limni_source *source) {
+    return limni_read_mesh(context, path, NULL, source);
 }

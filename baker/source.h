@@ -87,6 +87,10 @@ typedef struct limni_source {
 /// where there are several. The arrays belong to the context.
 limn_bake_status limni_read_file(limni_context *context, const char *path, limni_source *source);
 
+/// The same, but of several meshes the first with this name.
+limn_bake_status limni_read_mesh(limni_context *context, const char *path, const char *name,
+                                 limni_source *source);
+
 /// Makes values that are equal the same, each the first of them, and 0 of -0.
 ///
 /// values   [*count] those that are left move up

@@ -370,6 +370,29 @@ round_trip() {
     done
 }
 
+# ---- glTF: two meshes, a skeleton, a clip and a material
+
+cp "$assets/../tests/fuzz/corpus/gltf/character.glb" character.glb
+run 0 bake character.glb -o character.limn --images -q # or it was built without
+if ! grep -q 'built without tinygltf' stderr.txt; then
+    notes "mesh 0: 1 positions have the place of another and are kept apart" bake character.glb -o character.limn --images
+    works info character.limn
+    says stdout '^a skeleton of 3 joints$'
+    says stdout '^animation 0  *1.000  *4$'
+    says stdout '^material 0  *1 1 1 1  *4  image 0$'
+    works info character.limn --json
+    for key in joints clips materials influences morph_targets; do
+        says stdout "\"$key\""
+    done
+    works bake character.glb -o named.limn -q
+    works info named.limn
+    says stdout '^material 0  *1 1 1 1  *0  image 0$'
+    refuses 1 'character.glb: it has 2 meshes, and one is needed' convert character.glb new.obj
+    refuses 2 'new.glb: the output is a .limn file' bake character.glb -o new.glb
+    head -c 2000 character.glb >cut.glb
+    refuses 1 'cut.glb: not good glTF: ' bake cut.glb -o new.limn
+fi
+
 # A cube without its bottom: creases inside and on the boundary, sharp for ever, smooth again, and of
 # many digits; corners; a hole; and both rules.
 cat >house.obj <<'END'

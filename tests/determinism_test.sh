@@ -70,6 +70,7 @@ bake_all() {
     bake "$build" polygons-all --normals exact --scheme catmark "$@"
     bake "$build" butterfly-all --normals exact --scheme butterfly --tension 0.02 --isolate 1 "$@"
     bake "$build" lomont --creases lomont --normals exact "$source_folder"/assets/*.obj "$source_folder"/docs/box.obj
+    bake "$build" character --images "$source_folder/tests/fuzz/corpus/gltf/character.glb"
     cd "$source_folder"
 }
 

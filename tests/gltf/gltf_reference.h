@@ -93,47 +93,68 @@ static inline double *reference_read(const limni_gltf *d, int index) {
 
 // ---- Animation
 
+/// Values of two keys and what lies between them.
+typedef struct reference_span {
+    const double *a, *b; ///< with the tangents of cubic ones around them
+    double t, seconds;
+    size_t width;
+    bool between;
+} reference_span;
+
+static inline double reference_cubic(const reference_span *s, size_t i) {
+    const double t = s->t, t2 = t * t, t3 = t2 * t;
+    return (2 * t3 - 3 * t2 + 1) * s->a[i] + s->seconds * (t3 - 2 * t2 + t) * s->a[i + s->width] +
+           (-2 * t3 + 3 * t2) * s->b[i] + s->seconds * (t3 - t2) * *(s->b + i - s->width);
+}
+
+static inline double reference_slerp(const reference_span *s, size_t i) {
+    double dot = 0;
+    for (size_t k = 0; k < s->width; k++)
+        dot += s->a[k] * s->b[k];
+    const double angle = acos(fmin(fabs(dot), 1)), b = dot < 0 ? -s->b[i] : s->b[i];
+    if (angle < 1e-9) return (1 - s->t) * s->a[i] + s->t * b;
+    return sin((1 - s->t) * angle) / sin(angle) * s->a[i] + sin(s->t * angle) / sin(angle) * b;
+}
+
+static inline double reference_between(const reference_span *s, const char *interpolation,
+                                       bool rotation, size_t i) {
+    if (!s->between || strcmp(interpolation, "STEP") == 0) return s->a[i];
+    if (strcmp(interpolation, "CUBICSPLINE") == 0) return reference_cubic(s, i);
+    return rotation ? reference_slerp(s, i) : (1 - s->t) * s->a[i] + s->t * s->b[i];
+}
+
+static inline void reference_sample_channel(const limni_gltf *d, const limni_gltf_channel *channel,
+                                            double time, size_t width, double *value) {
+    double *const times = reference_read(d, channel->input);
+    double *const values = reference_read(d, channel->output);
+    const size_t count = d->accessors[channel->input].count;
+    const bool cubic = strcmp(channel->interpolation, "CUBICSPLINE") == 0;
+    const size_t step = (cubic ? 3 : 1) * width;
+    size_t k = 0;
+    while (k + 1 < count && times[k + 1] <= time)
+        k++;
+    reference_span s = {.a = values + k * step + (cubic ? width : 0), .width = width};
+    s.between = time > times[k] && k + 1 < count;
+    if (s.between) {
+        s.b = s.a + step;
+        s.seconds = times[k + 1] - times[k];
+        s.t = (time - times[k]) / s.seconds;
+    }
+    for (size_t i = 0; i < width; i++)
+        value[i] = reference_between(&s, channel->interpolation,
+                                     strcmp(channel->path, "rotation") == 0, i);
+    free(times);
+    free(values);
+}
+
 /// A property of a node: its own value, or that of a channel at a time.
 static inline void reference_sample(const limni_gltf *d, const limni_gltf_animation *animation,
                                     double time, int node, const char *path, size_t width,
                                     double *value) {
     for (uint32_t c = 0; animation && c < animation->channel_count; c++) {
         const limni_gltf_channel *const channel = &animation->channels[c];
-        if (channel->node != node || strcmp(channel->path, path) != 0) continue;
-        double *const times = reference_read(d, channel->input);
-        double *const values = reference_read(d, channel->output);
-        const size_t count = d->accessors[channel->input].count;
-        const bool cubic = strcmp(channel->interpolation, "CUBICSPLINE") == 0;
-        const bool rotation = strcmp(path, "rotation") == 0;
-        const size_t parts = cubic ? 3 : 1, first = cubic ? width : 0;
-        size_t k = 0;
-        while (k + 1 < count && times[k + 1] <= time)
-            k++;
-        const double *const a = values + k * parts * width + first;
-        const bool between = time > times[k] && k + 1 < count;
-        const double *const b = between ? a + parts * width : a;
-        const double span = between ? times[k + 1] - times[k] : 1;
-        const double t = between ? (time - times[k]) / span : 0;
-        double dot = 0;
-        for (size_t i = 0; i < width; i++)
-            dot += a[i] * b[i];
-        const double angle = acos(fmin(fabs(dot), 1));
-        for (size_t i = 0; i < width; i++) {
-            if (strcmp(channel->interpolation, "STEP") == 0 || !between)
-                value[i] = a[i];
-            else if (cubic)
-                value[i] = (2 * t * t * t - 3 * t * t + 1) * a[i] +
-                           span * (t * t * t - 2 * t * t + t) * a[i + width] +
-                           (-2 * t * t * t + 3 * t * t) * b[i] +
-                           span * (t * t * t - t * t) * b[(ptrdiff_t)i - (ptrdiff_t)width];
-            else if (rotation && angle > 1e-9)
-                value[i] = sin((1 - t) * angle) / sin(angle) * a[i] +
-                           sin(t * angle) / sin(angle) * (dot < 0 ? -b[i] : b[i]);
-            else
-                value[i] = (1 - t) * a[i] + t * b[i];
-        }
-        free(times);
-        free(values);
+        if (channel->node == node && strcmp(channel->path, path) == 0)
+            reference_sample_channel(d, channel, time, width, value);
     }
 }
 
@@ -195,53 +216,60 @@ static inline int reference_attribute(const limni_gltf_attributes *attributes, c
     return -1;
 }
 
-/// Vertices of one primitive of a node, for the caller to free.
-///
-/// posed  false: in the bind pose, without morph targets; a mesh without a skin at its node's rest
-static inline double *reference_vertices(const limni_gltf *d, const limni_gltf_animation *animation,
-                                         double time, int index, uint32_t primitive_index,
-                                         bool posed, size_t *count) {
+/// A moment of an animation.
+typedef struct reference_moment {
+    const limni_gltf *document;
+    const limni_gltf_animation *animation; ///< NULL: at rest
+    double time;
+} reference_moment;
+
+static inline void reference_morph(const reference_moment *at, int index,
+                                   const limni_gltf_primitive *primitive, double *points,
+                                   size_t count) {
+    const limni_gltf *const d = at->document;
     const limni_gltf_node *const node = &d->nodes[index];
     const limni_gltf_mesh *const mesh = &d->meshes[node->mesh];
-    const limni_gltf_primitive *const primitive = &mesh->primitives[primitive_index];
-    const int positions = reference_attribute(&primitive->attributes, "POSITION");
-    double *const points = reference_read(d, positions);
-    *count = d->accessors[positions].count;
     double weights[64] = {0};
     for (uint32_t t = 0; t < primitive->target_count; t++)
         weights[t] = node->weight_count   ? node->weights[t]
                      : mesh->weight_count ? mesh->weights[t]
                                           : 0;
-    reference_sample(d, animation, time, index, "weights", primitive->target_count, weights);
-    for (uint32_t t = 0; posed && t < primitive->target_count; t++) {
+    reference_sample(d, at->animation, at->time, index, "weights", primitive->target_count,
+                     weights);
+    for (uint32_t t = 0; t < primitive->target_count; t++) {
         double *const deltas =
             reference_read(d, reference_attribute(&primitive->targets[t], "POSITION"));
-        for (size_t i = 0; i < 3 * *count; i++)
+        for (size_t i = 0; i < 3 * count; i++)
             points[i] += weights[t] * deltas[i];
         free(deltas);
     }
-    if (node->skin < 0) {
-        const reference_matrix m = posed ? reference_global(d, animation, time, index)
-                                         : reference_global(d, NULL, 0, index);
-        for (size_t i = 0; i < *count; i++)
-            reference_apply(m, points + 3 * i, points + 3 * i);
-        return points;
-    }
-    if (!posed) return points;
-    const limni_gltf_skin *const skin = &d->skins[node->skin];
+}
+
+static inline reference_matrix *reference_joints(const reference_moment *at,
+                                                 const limni_gltf_skin *skin) {
+    const limni_gltf *const d = at->document;
     double *const binds = skin->inverse_binds >= 0 ? reference_read(d, skin->inverse_binds) : NULL;
-    double *const joints =
-        reference_read(d, reference_attribute(&primitive->attributes, "JOINTS_0"));
-    double *const shares =
-        reference_read(d, reference_attribute(&primitive->attributes, "WEIGHTS_0"));
     reference_matrix *const matrices = malloc(skin->joint_count * sizeof *matrices);
     for (uint32_t j = 0; j < skin->joint_count; j++) {
         reference_matrix bind = reference_identity();
         if (binds) memcpy(bind.m, binds + 16 * (size_t)j, sizeof bind.m);
         matrices[j] =
-            reference_product(reference_global(d, animation, time, skin->joints[j]), bind);
+            reference_product(reference_global(d, at->animation, at->time, skin->joints[j]), bind);
     }
-    for (size_t i = 0; i < *count; i++) {
+    free(binds);
+    return matrices;
+}
+
+static inline void reference_skin(const reference_moment *at, const limni_gltf_skin *skin,
+                                  const limni_gltf_primitive *primitive, double *points,
+                                  size_t count) {
+    const limni_gltf *const d = at->document;
+    double *const joints =
+        reference_read(d, reference_attribute(&primitive->attributes, "JOINTS_0"));
+    double *const shares =
+        reference_read(d, reference_attribute(&primitive->attributes, "WEIGHTS_0"));
+    reference_matrix *const matrices = reference_joints(at, skin);
+    for (size_t i = 0; i < count; i++) {
         double sum[3] = {0}, total = 0;
         for (size_t k = 4 * i; k < 4 * i + 4; k++) {
             double moved[3];
@@ -250,13 +278,34 @@ static inline double *reference_vertices(const limni_gltf *d, const limni_gltf_a
                 sum[axis] += shares[k] * moved[axis];
             total += shares[k];
         }
-        for (int axis = 0; axis < 3; axis++)
-            points[3 * i + (size_t)axis] = sum[axis] / total;
+        for (size_t axis = 0; axis < 3; axis++)
+            points[3 * i + axis] = sum[axis] / total;
     }
-    free(binds);
     free(joints);
     free(shares);
     free(matrices);
+}
+
+/// Vertices of one primitive of a node, for the caller to free.
+///
+/// posed  false: in the bind pose, without morph targets; a mesh without a skin at its node's rest
+static inline double *reference_vertices(const reference_moment *at, int index,
+                                         uint32_t primitive_index, bool posed, size_t *count) {
+    const limni_gltf *const d = at->document;
+    const limni_gltf_node *const node = &d->nodes[index];
+    const limni_gltf_primitive *const primitive =
+        &d->meshes[node->mesh].primitives[primitive_index];
+    const int positions = reference_attribute(&primitive->attributes, "POSITION");
+    double *const points = reference_read(d, positions);
+    *count = d->accessors[positions].count;
+    if (posed) reference_morph(at, index, primitive, points, *count);
+    if (node->skin >= 0) {
+        if (posed) reference_skin(at, &d->skins[node->skin], primitive, points, *count);
+        return points;
+    }
+    const reference_matrix m = reference_global(d, posed ? at->animation : NULL, at->time, index);
+    for (size_t i = 0; i < *count; i++)
+        reference_apply(m, points + 3 * i, points + 3 * i);
     return points;
 }
 

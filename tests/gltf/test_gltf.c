@@ -141,13 +141,13 @@ static double compare(const scene *s, uint32_t m, const limni_gltf_animation *an
     float *const posed = pose(s, m, clip, time, wrap);
     bool *const met = calloc(mesh.control_count, sizeof *met);
     double largest = 0;
+    const reference_moment at = {&s->document, animation, moment};
     const uint32_t primitive_count =
         s->document.meshes[s->document.nodes[node].mesh].primitive_count;
     for (uint32_t p = 0; p < primitive_count; p++) {
         size_t count;
-        double *const bind = reference_vertices(&s->document, NULL, 0, node, p, false, &count);
-        double *const want =
-            reference_vertices(&s->document, animation, moment, node, p, true, &count);
+        double *const bind = reference_vertices(&at, node, p, false, &count);
+        double *const want = reference_vertices(&at, node, p, true, &count);
         const double diagonal = diagonal_of(bind, count), reached = diagonal_of(want, count);
         for (size_t v = 0; v < count; v++) {
             double best = INFINITY;

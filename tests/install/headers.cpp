@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* All public headers as C++, and the baker and the runtime linked into a C++ program. */
 #include <limn/bake.h>
+#include <limn/character.h>
 #include <limn/format.h>
 #include <limn/limn.h>
 
