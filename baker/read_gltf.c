@@ -52,11 +52,21 @@ static limn_bake_status read(limni_gltf_reader *reader) {
     return limni_gltf_read_clips(reader);
 }
 
+/// The largest part of a document: what is needed of it has been copied.
+static void release_bytes(limni_context *context, const limni_gltf *document) {
+    for (uint32_t b = 0; b < document->buffer_count; b++)
+        limni_release(context, (void *)(uintptr_t)document->buffers[b].bytes);
+    for (uint32_t i = 0; i < document->image_count; i++)
+        limni_release(context, (void *)(uintptr_t)document->images[i].bytes);
+}
+
 limn_bake_status limni_read_gltf(limni_context *context, const char *path, const char *name,
                                  const char *bytes, size_t size, limni_scene *scene) {
     limni_gltf document;
     LIMNI_TRY(limni_gltf_parse(context, path, bytes, size, &document));
     limni_gltf_reader reader = {
         .context = context, .document = &document, .file_name = name, .scene = scene};
-    return read(&reader);
+    LIMNI_TRY(read(&reader));
+    release_bytes(context, &document);
+    return LIMN_BAKE_OK;
 }

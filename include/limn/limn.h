@@ -267,7 +267,7 @@ typedef struct limn_mesh {
     uint32_t base_count;  ///< 0 and control_count, but where a mesh has been divided
     uint32_t patch_count; ///< one per base face that is drawn
     uint32_t face_count;  ///< base faces, with the holes, which are not drawn
-    uint32_t run_count;   ///< patches are ordered by class: runs of one class each
+    uint32_t run_count;   ///< patches are ordered by material and class: runs of one class each
     float bounds_min[3];  ///< of the control points that faces use, in the bind pose
     float bounds_max[3];
     float origin[3]; ///< sums are taken relative to this point and it is added last, so that
