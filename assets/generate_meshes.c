@@ -11,77 +11,15 @@
  * faces ring by ring, quads cut in two where triangles are wanted, the other half mirrored, and a
  * pose at the end.
  */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "imp_gltf.h"
+#include "mesh.h"
 
-enum {
-    max_points = 1024,
-    max_faces = 1024,
-    max_corners = 8,
-    max_edges = 3072,
-    max_creases = 64,
-    max_path = 1024
-};
+#include <stdbool.h>
+#include <string.h>
 
 static const double grid = 10000.0; /* coordinates are multiples of 1 / grid */
 
-typedef struct point {
-    double x, y, z;
-} point;
-
-typedef struct face {
-    int count;
-    int corners[max_corners]; /* counter-clockwise seen from outside */
-} face;
-
-typedef struct crease {
-    int a, b;
-    double sharpness;
-} crease;
-
-typedef struct mesh {
-    int point_count, face_count, crease_count;
-    point points[max_points];
-    face faces[max_faces];
-    crease creases[max_creases];
-} mesh;
-
-static _Noreturn void fail(const char *which, const char *what) {
-    fprintf(stderr, "generate_meshes: %s: %s\n", which, what);
-    exit(EXIT_FAILURE);
-}
-
 /* ---- points ---- */
-
-static const point along_x = {1.0, 0.0, 0.0};
-static const point along_z = {0.0, 0.0, 1.0};
-
-static point add(point a, point b) {
-    return (point){a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
-static point scale(point a, double s) {
-    return (point){a.x * s, a.y * s, a.z * s};
-}
-
-static point subtract(point a, point b) {
-    return add(a, scale(b, -1.0));
-}
-
-static point cross(point a, point b) {
-    return (point){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-static double dot(point a, point b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-static point normalise(point a) {
-    return scale(a, 1.0 / sqrt(dot(a, a)));
-}
 
 static double round_to_grid(double value) {
     return floor(value * grid + 0.5) / grid + 0.0; /* never -0 */
@@ -485,16 +423,9 @@ static void mirror(mesh *m, const mesh *other) {
     }
 }
 
-/* Swings the tail to one side, and brings the imp to its height with its feet on the ground. */
 static void pose_imp(mesh *m) {
-    const double size = 0.9;
-    const double sole = -0.035;
     for (int i = 0; i < m->point_count; ++i) {
-        point *p = &m->points[i];
-        const double behind = -0.40 - p->z;
-        if (behind > 0.0 && p->y < 1.19) p->x += 0.9 * behind * behind;
-        p->y -= sole;
-        *p = scale(*p, size);
+        m->points[i] = imp_pose_point(m->points[i]);
     }
 }
 
@@ -864,6 +795,11 @@ static void fail_file(const char *path) {
     exit(EXIT_FAILURE);
 }
 
+static bool ends_with(const char *text, const char *end) {
+    const size_t length = strlen(text), end_length = strlen(end);
+    return length > end_length && strcmp(text + length - end_length, end) == 0;
+}
+
 /* Writes the file aside and renames it, so that a file that is there is whole. */
 static void write_mesh(const mesh *m, const char *folder, const char *file_name) {
     char path[max_path], aside[max_path];
@@ -872,7 +808,9 @@ static void write_mesh(const mesh *m, const char *folder, const char *file_name)
     if (length < 0 || aside_length < 0 || aside_length >= max_path) fail(folder, "path too long");
     FILE *out = fopen(aside, "wb");
     if (out == NULL) fail_file(aside);
-    if (strstr(file_name, ".off") != NULL) {
+    if (ends_with(file_name, ".gltf")) {
+        imp_print_gltf(m, out);
+    } else if (ends_with(file_name, ".off")) {
         print_off(m, out);
     } else {
         print_obj(m, out);
@@ -894,6 +832,7 @@ int main(int argc, char **argv) {
         {"cube.off", build_cube, 0, 2},
         {"imp_quads.obj", build_quad_imp, 0, 2},
         {"mug.obj", build_mug, 0, 0},
+        {"imp.gltf", build_imp, 0, 2},
     };
     static mesh m;
     if (argc != 2) {

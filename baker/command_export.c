@@ -11,7 +11,7 @@
 static const char help[] =
     "usage: limn export FILE.limn --level L|--eye X,Y,Z -o OUT.obj|OUT.ply [OPTIONS]\n\n"
     "Writes the triangles that a frame draws: everything at one level, or with levels of detail\n"
-    "for an eye; of the bind pose, or in a moment of a clip.\n\n"
+    "for an eye; at rest, or in a moment of a clip.\n\n"
     "  -o, --output FILE       .obj (text) or .ply (binary)\n"
     "  -l, --level L           0 (3 vertices per face) to 4 (153, of 256 triangles); between\n"
     "                          whole numbers, the next level on its way (morphing)\n"

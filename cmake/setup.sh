@@ -72,6 +72,10 @@ sample() {
     $limn bake assets/mug.obj -o $folder/mug.limn --scheme catmark --normals exact
     $view $folder/mug.limn --png $folder/mug.png
 
+    say "Baking assets/imp.gltf, which moves"
+    $limn bake assets/imp.gltf -o $folder/waving.limn --normals exact --isolate 1
+    $view $folder/waving.limn --png $folder/waving.png --clip wave --time 0.25
+
     say "Look at these, in $(pwd)/$folder:"
     cat <<END
 imp.png                the surface, at level 4
@@ -82,7 +86,8 @@ imp_level4.obj         the dense mesh, closed, as an OBJ
 imp.limn               the baked file
 imp.txt                what is in it
 mug.png                quads, two octagons and creases, by Catmull-Clark
-mug.limn               the baked file
+waving.png             a moment of the clip "wave" of a skinned imp
+mug.limn, waving.limn  the baked files
 END
 }
 

@@ -68,7 +68,7 @@ enum limni_frame_key {
     "      --budget N          lower the levels of each mesh until it has at most N vertices,\n"   \
     "                          or all are at the lowest\n"                                         \
     "      --no-morph          round levels up instead of morphing\n"                              \
-    "      --clip NAME         a moment of an animation clip; default the bind pose\n"             \
+    "      --clip NAME         a moment of an animation clip; default: joints at rest\n"           \
     "      --time T            of the clip, in seconds; default 0\n"
 
 typedef struct limni_frame_options {

@@ -12,7 +12,7 @@
 /// What moves the meshes of a pack.
 typedef struct motion {
     const limn_pack *pack;
-    limn_clip clip;
+    const limn_clip *clip; ///< NULL: at rest
     float time;
     float *matrices; ///< [joint_count][3][4]
 } motion;
@@ -36,7 +36,7 @@ static bool morph(const motion *by, uint32_t mesh_index, const limn_mesh *mesh, 
     if (targets.target_count == 0) return true;
     float *const weights = malloc(targets.target_count * sizeof *weights);
     if (!weights) return false;
-    limn_clip_morph_weights(by->pack, mesh_index, &by->clip, by->time, LIMN_WRAP_CLAMP, weights);
+    limn_clip_morph_weights(by->pack, mesh_index, by->clip, by->time, LIMN_WRAP_CLAMP, weights);
     limn_morph_points(&targets, weights, mesh->controls, 0, targets.point_count, controls);
     free(weights);
     return true;
@@ -61,12 +61,14 @@ static void find_bounds(limn_mesh *mesh) {
 
 static bool move(const motion *by, uint32_t mesh_index, limni_moment_mesh *moved) {
     limn_mesh *const mesh = &moved->mesh;
+    const limn_skin skin = limn_mesh_skin(by->pack, mesh_index);
+    if (skin.point_count == 0 && limn_mesh_morph_targets(by->pack, mesh_index).target_count == 0)
+        return true;
     const size_t size = ((size_t)mesh->point_count + 1) * sizeof(float[3]);
     moved->controls = malloc(size);
     if (!moved->controls) return false;
     memcpy(moved->controls, mesh->controls, size - sizeof(float[3]));
     if (!morph(by, mesh_index, mesh, moved->controls)) return false;
-    const limn_skin skin = limn_mesh_skin(by->pack, mesh_index);
     const limn_pose pose = {.skin = &skin, .matrices = by->matrices};
     if (skin.point_count > 0)
         limn_pose_points(&pose, moved->controls, 0, skin.point_count, moved->controls);
@@ -80,7 +82,7 @@ static bool move_all(limni_moment *moment, motion *by, uint32_t first) {
     const limn_skeleton skeleton = limn_pack_skeleton(by->pack);
     by->matrices = malloc(((size_t)skeleton.joint_count + 1) * sizeof(float[12]));
     if (!by->matrices) return false;
-    limn_clip_pose(&skeleton, &by->clip, by->time, LIMN_WRAP_CLAMP, by->matrices);
+    limn_clip_pose(&skeleton, by->clip, by->time, LIMN_WRAP_CLAMP, by->matrices);
     bool moved = true;
     for (uint32_t m = 0; m < moment->mesh_count && moved; m++)
         moved = move(by, first + m, &moment->meshes[m]);
@@ -95,9 +97,10 @@ bool limni_moment_make(limni_moment *moment, const limn_pack *pack, uint32_t fir
     moment->mesh_count = count;
     for (uint32_t m = 0; m < count; m++)
         moment->meshes[m].mesh = limn_pack_mesh(pack, first + m);
-    if (!limni_frame_given(options, LIMNI_FRAME_CLIP)) return true;
-    motion by = {.pack = pack, .time = options->time};
-    return find_clip(pack, options, &by.clip) &&
+    limn_clip clip;
+    const bool has_clip = limni_frame_given(options, LIMNI_FRAME_CLIP);
+    motion by = {.pack = pack, .clip = has_clip ? &clip : NULL, .time = options->time};
+    return (!has_clip || find_clip(pack, options, &clip)) &&
            (move_all(moment, &by, first) ||
             limni_frame_refuse(options, "out of memory for control points"));
 }

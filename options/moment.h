@@ -8,7 +8,7 @@
 /// A mesh in that moment: `mesh.controls` are where its points are then, and so are its bounds.
 typedef struct limni_moment_mesh {
     limn_mesh mesh;
-    float *controls; ///< what to free; NULL: the bind pose
+    float *controls; ///< what to free; NULL: nothing moves it
 } limni_moment_mesh;
 
 typedef struct limni_moment {
@@ -16,8 +16,8 @@ typedef struct limni_moment {
     uint32_t mesh_count;
 } limni_moment;
 
-/// Moves meshes [first, first + count) of a pack as --clip and --time say; without them all are in
-/// the bind pose. On failure the options hold the error. To be freed in either case.
+/// Moves meshes [first, first + count) of a pack as --clip and --time say; without them joints and
+/// morph targets are at rest. On failure the options hold the error. To be freed in either case.
 bool limni_moment_make(limni_moment *moment, const limn_pack *pack, uint32_t first, uint32_t count,
                        limni_frame_options *options);
 void limni_moment_free(limni_moment *moment);
