@@ -17,10 +17,10 @@ void limni_assignment_end(limni_context *context, const limni_assignment *assign
 }
 
 /// Adds up what one side says about an edge: which control points move its rows, and how. The sum
-/// does not depend on the order of the slots. On a crease both sides have tangents of their own.
+/// does not depend on the order of the slots.
 static uint64_t sum_edge(const limni_mesh *mesh, const limni_classes *classes,
                          const limni_class_key *key, const limni_local_base *base, uint32_t edge,
-                         bool along, bool crease) {
+                         bool along, bool tangents) {
     const limni_class *const class = &classes->items[key->class_index];
     uint64_t sum = 0;
     for (uint32_t slot = 0; slot < base->control_count; slot++) {
@@ -29,7 +29,7 @@ static uint64_t sum_edge(const limni_mesh *mesh, const limni_classes *classes,
         const limni_edge_print print = along ? prints->along[edge] : prints->against[edge];
         const uint32_t control = limni_origin(mesh, base->controls[slot]);
         if (print.positions) sum += limni_hash_mix(print.positions, control);
-        if (print.tangents && !crease) sum -= limni_hash_mix(print.tangents, control);
+        if (print.tangents && tangents) sum -= limni_hash_mix(print.tangents, control);
     }
     return sum;
 }
@@ -51,9 +51,11 @@ static void sum_edges(limni_classifier *classifier, const limni_classes *classes
         for (uint32_t h = first; h < first + size; h++) {
             const uint32_t edge = (h - first + size - rotation) % size;
             const bool along = mesh->pairs[h] == LIMNI_NONE || h < mesh->pairs[h];
-            const bool crease = limni_is_crease(classifier->sharpness, mesh, h);
+            // On a crease both sides have tangents of their own.
+            const bool tangents = classifier->rules->normals == LIMN_NORMALS_EXACT &&
+                                  !limni_is_crease(classifier->sharpness, mesh, h);
             sums[h] = sum_edge(mesh, classes, &classes->keys[assigned->keys[face]], base, edge,
-                               along, crease);
+                               along, tangents);
         }
     }
 }

@@ -36,7 +36,8 @@ limn_baker *limn_baker_create(const limn_bake_desc *desc) {
                                  .creases = baker->context.desc.creases,
                                  .creasing = baker->context.desc.creasing,
                                  .normals = baker->context.desc.normals,
-                                 .isolate = baker->context.desc.isolate};
+                                 .isolate = baker->context.desc.isolate,
+                                 .face_varying = baker->context.desc.face_varying};
     return baker;
 }
 
@@ -131,7 +132,17 @@ static limn_bake_status apply_rules(limni_context *context, const limni_rules *r
     return LIMN_BAKE_OK;
 }
 
-static void release_source(limni_context *context, const limni_source *source) {
+static void release_channels(limni_context *context, limni_source *source) {
+    for (uint32_t c = 0; c < source->channel_count; c++) {
+        limni_release(context, source->channels[c].values);
+        limni_release(context, source->channels[c].corner_values);
+    }
+    limni_release(context, source->channels);
+    source->channels = NULL;
+    source->channel_count = 0;
+}
+
+static void release_source(limni_context *context, limni_source *source) {
     limni_release(context, source->position_numbers);
     limni_release(context, source->position_lines);
     limni_release(context, source->face_offsets);
@@ -140,11 +151,7 @@ static void release_source(limni_context *context, const limni_source *source) {
     limni_release(context, source->face_lines);
     limni_release(context, source->face_materials);
     limni_rig_release(context, &source->rig);
-    for (uint32_t c = 0; c < source->channel_count; c++) {
-        limni_release(context, source->channels[c].values);
-        limni_release(context, source->channels[c].corner_values);
-    }
-    limni_release(context, source->channels);
+    release_channels(context, source);
     limni_release(context, source->tags.creases);
     limni_release(context, source->tags.sharp_vertices);
     limni_release(context, source->tags.holes);
@@ -177,6 +184,7 @@ static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     }
     limni_release(context, baker->blob);
     baker->blob = NULL;
+    if (context->desc.no_channels) release_channels(context, source);
     limni_mesh mesh;
     LIMNI_TRY(limni_mesh_build(context, source, &mesh));
     limni_rules rules = rules_for(&baker->rules, &mesh);
@@ -186,15 +194,22 @@ static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     limni_base base;
     LIMNI_TRY(limni_base_begin(context, &mesh, &rules, &base));
     LIMNI_TRY(settle_isolation(context, &base, &rules, footprints));
+    limni_channel *channels;
+    LIMNI_TRY(limni_channels_begin(context, source, &base, &rules, &channels));
     limni_patches *const patches = &baker->meshes[baker->mesh_count];
-    LIMNI_TRY(
-        limni_patches_build(context, &base, &rules, &baker->classes, &baker->pieces, patches));
+    LIMNI_TRY(limni_patches_build(context, &base, &rules, channels, source->channel_count,
+                                  &baker->classes, &baker->pieces, patches));
     LIMNI_TRY(
         limni_edge_errors_build(context, base.mesh, &baker->classes, &baker->pieces, patches));
     LIMNI_TRY(limni_rig_build(context, source, &mesh, &patches->rig));
     memcpy(patches->footprints, footprints, sizeof footprints);
     if (patches->controls != mesh.controls) limni_release(context, mesh.controls);
     baker->mesh_count++;
+    for (uint32_t c = 0; c < source->channel_count; c++) {
+        if (patches->channels[c].controls != channels[c].mesh.controls)
+            limni_release(context, channels[c].mesh.controls);
+    }
+    limni_channels_end(context, channels, source->channel_count);
     release_source(context, source);
     limni_base_end(context, &base);
     limni_mesh_end(context, &mesh);
@@ -257,6 +272,59 @@ static limn_bake_status check_sharpness(limni_context *context, const limn_bake_
     return LIMN_BAKE_OK;
 }
 
+static limn_bake_status check_channel(limni_context *context, const limn_bake_mesh *mesh,
+                                      const limn_bake_channel *channel, uint64_t corner_count) {
+    const char *const name = mesh->name ? mesh->name : "mesh";
+    const char *const own = channel->name ? channel->name : "channel";
+    if (channel->component_count < 1 || channel->component_count > 3)
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                          "%s: %s has %u components; 1 to 3 are right", name, own,
+                          channel->component_count);
+    for (uint64_t v = 0; v < (uint64_t)channel->value_count * channel->component_count; v++) {
+        if (!isfinite(channel->values[v]))
+            return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: value %llu of %s is not finite",
+                              name, (unsigned long long)v / channel->component_count, own);
+    }
+    for (uint64_t c = 0; c < corner_count; c++) {
+        if (channel->corner_values[c] >= channel->value_count)
+            return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                              "%s: corner %llu refers to value %u of %s, but there are %u", name,
+                              (unsigned long long)c, channel->corner_values[c], own,
+                              channel->value_count);
+    }
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status copy_channel(limni_context *context, const limn_bake_channel *channel,
+                                     uint64_t corner_count, limni_source_channel *made) {
+    const uint32_t size = channel->component_count;
+    *made = (limni_source_channel){
+        .name = copy_name(context, channel->name ? channel->name : "channel"),
+        .kind = channel->kind,
+        .component_count = size,
+        .values = limni_allocate_zeroed(context, channel->value_count, sizeof *made->values),
+        .value_count = channel->value_count,
+        .corner_values = limni_allocate(context, (size_t)corner_count, sizeof *made->corner_values),
+    };
+    if (!made->name || !made->values || !made->corner_values) return LIMN_BAKE_MEMORY;
+    for (size_t v = 0; v < channel->value_count; v++)
+        memcpy(made->values[v], channel->values + v * size, size * sizeof(float));
+    memcpy(made->corner_values, channel->corner_values, (size_t)corner_count * sizeof(uint32_t));
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status copy_channels(limni_context *context, const limn_bake_mesh *mesh,
+                                      uint64_t corner_count, limni_source *source) {
+    source->channels = limni_allocate(context, mesh->channel_count, sizeof *source->channels);
+    if (!source->channels) return LIMN_BAKE_MEMORY;
+    for (uint32_t c = 0; c < mesh->channel_count; c++) {
+        LIMNI_TRY(check_channel(context, mesh, &mesh->channels[c], corner_count));
+        LIMNI_TRY(copy_channel(context, &mesh->channels[c], corner_count, &source->channels[c]));
+        source->channel_count++;
+    }
+    return LIMN_BAKE_OK;
+}
+
 static limn_bake_status copy_tags(limni_context *context, const limn_bake_mesh *mesh,
                                   limni_tags *tags) {
     LIMNI_TRY(check_sharpness(context, mesh, "crease", mesh->crease_sharpness, mesh->crease_count));
@@ -307,6 +375,7 @@ static limn_bake_status add_mesh(limn_baker *baker, const limn_bake_mesh *mesh) 
         source.face_offsets[face + 1] =
             source.face_offsets[face] + (mesh->face_sizes ? mesh->face_sizes[face] : 3);
     LIMNI_TRY(copy_tags(context, mesh, &source.tags));
+    LIMNI_TRY(copy_channels(context, mesh, corner_count, &source));
     return add_source(baker, &source);
 }
 

@@ -38,7 +38,8 @@ static void note_division(limni_context *context, const limni_mesh *source,
                    name, made->face_count);
 }
 
-static limn_bake_status divide(limni_context *context, const limni_rules *rules, limni_base *base) {
+static limn_bake_status divide_mesh(limni_context *context, const limni_rules *rules,
+                                    limni_base *base) {
     const limni_mesh *const source = base->source;
     limni_mesh *const made = &base->refined.mesh;
     LIMNI_TRY(limni_refine(context, source, &base->source_sharpness, rules, &base->refined));
@@ -59,6 +60,19 @@ static limn_bake_status divide(limni_context *context, const limni_rules *rules,
     return limni_mesh_sharpness_begin(context, made, rules, &base->refined.sharpness);
 }
 
+/// Finds the mesh of a base whose source and sharpness are known.
+static limn_bake_status find_mesh(limni_context *context, const limni_rules *rules,
+                                  limni_base *base) {
+    base->mesh = base->source;
+    base->sharpness = &base->source_sharpness;
+    if (!base->divided) return LIMN_BAKE_OK;
+    LIMNI_TRY(divide_mesh(context, rules, base));
+    base->first = base->source->control_count;
+    base->mesh = &base->refined.mesh;
+    base->sharpness = &base->refined.sharpness;
+    return LIMN_BAKE_OK;
+}
+
 limn_bake_status limni_base_begin(limni_context *context, const limni_mesh *source,
                                   const limni_rules *rules, limni_base *base) {
     // Two levels apart, extraordinary vertices are out of each other's reach, if that is 2.
@@ -67,15 +81,17 @@ limn_bake_status limni_base_begin(limni_context *context, const limni_mesh *sour
     *base =
         (limni_base){.source = source, .divided = count_others(source) > 0 || (far && isolated)};
     LIMNI_TRY(limni_mesh_sharpness_begin(context, source, rules, &base->source_sharpness));
-    base->mesh = source;
-    base->sharpness = &base->source_sharpness;
-    if (!base->divided) return LIMN_BAKE_OK;
-    LIMNI_TRY(divide(context, rules, base));
-    note_division(context, source, &base->refined.mesh);
-    base->first = source->control_count;
-    base->mesh = &base->refined.mesh;
-    base->sharpness = &base->refined.sharpness;
+    LIMNI_TRY(find_mesh(context, rules, base));
+    if (base->divided) note_division(context, source, base->mesh);
     return LIMN_BAKE_OK;
+}
+
+limn_bake_status limni_base_follow(limni_context *context, const limni_base *drawn,
+                                   const limni_mesh *source, const limni_mesh_sharpness *sharpness,
+                                   const limni_rules *rules, limni_base *base) {
+    *base =
+        (limni_base){.source = source, .divided = drawn->divided, .source_sharpness = *sharpness};
+    return find_mesh(context, rules, base);
 }
 
 void limni_base_end(limni_context *context, limni_base *base) {

@@ -23,6 +23,13 @@ typedef struct limni_base {
 /// base  must stay where it is, and the source with it
 limn_bake_status limni_base_begin(limni_context *context, const limni_mesh *source,
                                   const limni_rules *rules, limni_base *base);
+
+/// The base of a channel of a mesh, whose faces correspond to those of the mesh that is drawn.
+///
+/// sharpness  of the source; becomes the base's
+limn_bake_status limni_base_follow(limni_context *context, const limni_base *drawn,
+                                   const limni_mesh *source, const limni_mesh_sharpness *sharpness,
+                                   const limni_rules *rules, limni_base *base);
 void limni_base_end(limni_context *context, limni_base *base);
 
 /// Points behind control points, as the runtime computes them.

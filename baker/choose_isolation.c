@@ -45,7 +45,7 @@ static limn_bake_status try_bake(limni_context *context, const limni_base *base,
     limni_classes classes = {0}, pieces = {0};
     limni_patches patches;
     rules.isolate = isolate;
-    LIMNI_TRY(limni_patches_build(context, base, &rules, &classes, &pieces, &patches));
+    LIMNI_TRY(limni_patches_build(context, base, &rules, NULL, 0, &classes, &pieces, &patches));
     return measure(context, &classes, &pieces, &patches, footprint);
 }
 

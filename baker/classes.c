@@ -11,7 +11,7 @@
 // ---- Dictionaries
 
 static uint64_t key_hash(const limni_class_key *key) {
-    uint64_t hash = 3 * (uint64_t)key->size + key->kind;
+    uint64_t hash = limni_hash_mix(3 * (uint64_t)key->size + key->kind, key->table_count);
     for (uint32_t w = 0; w < key->size; w++)
         hash = limni_hash_mix(hash, key->words[w]);
     return hash;
@@ -35,7 +35,9 @@ static uint32_t *find_key(const limni_classes *classes, const limni_class_key *k
     uint32_t at = (uint32_t)key_hash(key) & (table->size - 1);
     for (; table->indices[at] != LIMNI_NONE; at = (at + 1) & (table->size - 1)) {
         const limni_class_key *const other = &classes->keys[table->indices[at]];
-        if (other->domain == key->domain && other->kind == key->kind && other->size == key->size &&
+        if (other->scheme == key->scheme && other->domain == key->domain &&
+            other->kind == key->kind && other->table_count == key->table_count &&
+            other->size == key->size &&
             memcmp(other->words, key->words, key->size * sizeof *key->words) == 0)
             break;
     }
@@ -266,12 +268,16 @@ static limn_bake_status fill_rows(limni_context *context, const limni_rules *rul
     return LIMN_BAKE_OK;
 }
 
+static uint32_t table_count_of(const limni_rules *rules) {
+    return rules->normals == LIMN_NORMALS_EXACT ? 3 : 1;
+}
+
 static limn_bake_status begin_class(limni_context *context, const limni_rules *rules,
                                     const limni_local_base *base, limni_table_kind kind,
                                     class_maker *maker) {
     const limn_domain *const domain = limn_domain_get(base->mesh->domain);
     const uint32_t slot_count = base->control_count;
-    const uint32_t table_count = rules->normals == LIMN_NORMALS_EXACT ? 3 : 1;
+    const uint32_t table_count = table_count_of(rules);
     const int depth = kind == LIMNI_TABLE_PATCH ? LIMN_LEVEL_MAX : LIMN_LEVEL_MAX - 1;
     const uint32_t row_count = domain->row_counts[depth];
     const size_t table_size = (size_t)row_count * slot_count;
@@ -341,16 +347,21 @@ static limn_bake_status make_room(limni_context *context, limni_classes *classes
 }
 
 /// The key of a local base, with the words of that.
-static limni_class_key key_of(const limni_local_base *base, limni_table_kind kind) {
-    return (limni_class_key){
-        .domain = base->mesh->domain, .kind = kind, .words = base->key, .size = base->key_size};
+static limni_class_key key_of(const limni_rules *rules, const limni_local_base *base,
+                              limni_table_kind kind) {
+    return (limni_class_key){.scheme = rules->scheme,
+                             .domain = base->mesh->domain,
+                             .kind = kind,
+                             .table_count = table_count_of(rules),
+                             .words = base->key,
+                             .size = base->key_size};
 }
 
 static limn_bake_status add_key(limni_context *context, limni_classes *classes,
                                 const limni_rules *rules, const limni_local_base *base,
                                 limni_table_kind kind) {
     limni_class_key *const key = &classes->keys[classes->key_count];
-    *key = key_of(base, kind);
+    *key = key_of(rules, base, kind);
     key->words = limni_allocate(context, base->key_size, sizeof *key->words);
     key->slots = limni_allocate(context, base->control_count, sizeof *key->slots);
     if (!key->words || !key->slots) return LIMN_BAKE_MEMORY;
@@ -373,8 +384,12 @@ static limn_bake_status add_key(limni_context *context, limni_classes *classes,
 limn_bake_status limni_classes_find(limni_context *context, limni_classes *classes,
                                     const limni_rules *rules, const limni_local_base *base,
                                     limni_table_kind kind, uint32_t *key_index) {
-    const limni_class_key key = key_of(base, kind);
+    const limni_class_key key = key_of(rules, base, kind);
+    limni_class_key with_normals = key;
+    with_normals.table_count = 3;
     LIMNI_TRY(make_room(context, classes));
+    *key_index = *find_key(classes, &with_normals);
+    if (*key_index != LIMNI_NONE) return LIMN_BAKE_OK;
     uint32_t *const place = find_key(classes, &key);
     if (*place == LIMNI_NONE) {
         LIMNI_TRY(add_key(context, classes, rules, base, kind));

@@ -69,8 +69,10 @@ limn_file_piece limni_piece_record(const limni_class *piece);
 
 /// A topology, and the table that it uses.
 typedef struct limni_class_key {
+    limn_scheme scheme;
     limn_domain_kind domain;
     limni_table_kind kind;
+    uint32_t table_count;
     uint32_t *words; ///< [size]
     uint32_t size;
     uint32_t class_index;
@@ -90,7 +92,8 @@ typedef struct limni_classes {
     limni_index_table by_key, by_table;
 } limni_classes;
 
-/// The index of the key of a local base. Its class is made on first sight.
+/// The index of the key of a local base. Its class is made on first sight. Where no normals are asked
+/// for, it may have them.
 limn_bake_status limni_classes_find(limni_context *context, limni_classes *classes,
                                     const limni_rules *rules, const limni_local_base *base,
                                     limni_table_kind kind, uint32_t *key_index);

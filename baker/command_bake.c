@@ -48,10 +48,16 @@ static const char help[] =
     "whose\n"
     "                        tables would take more than 256 KB by\n"
     "                        themselves. Default: 0\n"
+    "      --face-varying NAME  where texture coordinates are linear, as in OpenSubdiv: none,\n"
+    "                        corners-only (default), corners-plus1, corners-plus2, boundaries,\n"
+    "                        all. With --scheme butterfly the default is all, with none it is\n"
+    "                        always\n"
+    "      --no-channels     leave out texture coordinates\n"
     "      --images          store the images of materials, not only their names\n"
     "      --repair[=STEPS]  mend what would be refused, and say so; STEPS of, separated by "
     "commas:\n"
-    "                        weld   merge control points whose positions are equal\n"
+    "                        weld   merge control points whose positions are equal, and equal\n"
+    "                               texture coordinates\n"
     "                        drop   drop degenerate and repeated faces\n"
     "                        all    both, in this order (default)\n"
     "      --non-manifold NAME  edges that more than two faces share or whose faces are wound\n"
@@ -106,6 +112,8 @@ enum {
     OPTION_CREASING,
     OPTION_NORMALS,
     OPTION_ISOLATE,
+    OPTION_FACE_VARYING,
+    OPTION_NO_CHANNELS,
     OPTION_IMAGES,
     OPTION_REPAIR,
     OPTION_NON_MANIFOLD,
@@ -122,6 +130,8 @@ static const struct option options[] = {
     {"creasing", required_argument, NULL, OPTION_CREASING},
     {"normals", required_argument, NULL, OPTION_NORMALS},
     {"isolate", required_argument, NULL, OPTION_ISOLATE},
+    {"face-varying", required_argument, NULL, OPTION_FACE_VARYING},
+    {"no-channels", no_argument, NULL, OPTION_NO_CHANNELS},
     {"images", no_argument, NULL, OPTION_IMAGES},
     {"repair", optional_argument, NULL, OPTION_REPAIR},
     {"non-manifold", required_argument, NULL, OPTION_NON_MANIFOLD},
@@ -133,7 +143,7 @@ static const struct option options[] = {
 
 /// The options that choose a name, and what is said when there is none such.
 typedef struct choice {
-    const char *names[5]; ///< up to a NULL
+    const char *names[7]; ///< up to a NULL
     const char *error;
 } choice;
 
@@ -146,6 +156,10 @@ static const choice creasings = {{"uniform", "chaikin"}, "there is no creasing m
 static const choice normals = {{"none", "exact"}, "there are no normals '%s'"};
 
 static const choice isolations = {{"0", "1", "auto"}, "cannot isolate '%s'"};
+
+static const choice face_varyings = {
+    {"none", "corners-only", "corners-plus1", "corners-plus2", "boundaries", "all"},
+    "there is no face-varying mode '%s'"};
 
 /// Sets *chosen to `first` for the first name, and so on.
 static int choose(const choice *from, int first, int *chosen) {
@@ -198,6 +212,13 @@ static int parse_option(int option, arguments *given) {
     case OPTION_IMAGES:
         desc->images = true;
         return LIMNI_EXIT_OK;
+    case OPTION_FACE_VARYING:
+        status = choose(&face_varyings, LIMN_FACE_VARYING_NONE, &chosen);
+        desc->face_varying = (limn_face_varying)chosen;
+        return status;
+    case OPTION_NO_CHANNELS:
+        desc->no_channels = true;
+        return LIMNI_EXIT_OK;
     case OPTION_REPAIR:
         if (!limni_parse_repair(optarg, &given->desc.repair))
             return limni_usage_error("bake", "cannot repair '%s'", optarg);
@@ -237,6 +258,9 @@ static int check_scheme(const limn_bake_desc *desc) {
     if (desc->boundary == LIMN_BOUNDARY_EDGE_AND_CORNER && !creased)
         return limni_usage_error("bake",
                                  "--boundary edge-and-corner goes with --scheme loop or catmark");
+    if (desc->scheme == LIMN_SCHEME_NONE && desc->face_varying != LIMN_FACE_VARYING_DEFAULT &&
+        desc->face_varying != LIMN_FACE_VARYING_ALL)
+        return limni_usage_error("bake", "with --scheme none, --face-varying is all");
     return LIMNI_EXIT_OK;
 }
 

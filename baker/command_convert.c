@@ -124,6 +124,13 @@ static void note_lost(limni_context *context, const limni_source *source, const 
                    asks ? ", and rules for boundaries or creases" : "");
 }
 
+static void note_lost_channels(limni_context *context, const limni_source *source,
+                               const char *path) {
+    for (uint32_t c = 0; c < source->channel_count; c++)
+        limni_note(context, "%s: lost, as the format has none: the texture coordinates '%s'", path,
+                   source->channels[c].name);
+}
+
 static limn_bake_status write(limni_context *context, const arguments *given,
                               const limni_source *source, const limni_mesh *mesh) {
     limni_output_file file;
@@ -157,6 +164,7 @@ static limn_bake_status convert(limni_context *context, const arguments *given) 
     }
     if (given->format == FORMAT_OFF || given->format == FORMAT_PLY)
         note_lost(context, &source, given->output);
+    if (given->format != FORMAT_OBJ) note_lost_channels(context, &source, given->output);
     LIMNI_TRY(write(context, given, &source, &mesh));
     const bool built = given->format == FORMAT_LOMONT;
     if (!given->quiet)

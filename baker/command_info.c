@@ -2,6 +2,7 @@
 #include "../runtime/edge_error.h"
 #include "command.h"
 #include "info_character.h"
+#include "limn/bake.h"
 #include "limn/format.h"
 #include "sizes.h"
 
@@ -22,6 +23,9 @@ static const char help[] =
     "                           points_size,normals_size,class_count,edge_errors,influences,\n"
     "                           morph_targets[],materials[].{material,patches}}\n"
     "                 "
+    "meshes[].channels[].{name,kind,components,face_varying,values,points,patch_size,\n"
+    "                           runs}\n"
+    "                 "
     "classes[].{control_points,pairs,table_size,use_count,valences,boundary_corners}\n"
     "                 joints[].{name,parent}, clips[].{name,duration,tracks},\n"
     "                 materials[].{name,base_colour,image,image_size}\n"
@@ -34,6 +38,8 @@ static const char help[] =
     "edge_errors are how far levels 0 to 3 are off the limit surface around an edge, in lengths "
     "of\n"
     "the edge: the medians of a mesh.\n"
+    "A channel is texture coordinates or colours: its values are its control points, its patches\n"
+    "those of the mesh, in runs of one class.\n"
     "A class is one topology of a face's surroundings; its use_count is in faces, its pairs are "
     "of\n"
     "control points, if it is its own mirror image.\n";
@@ -73,15 +79,41 @@ static uint32_t count_classes(const limn_mesh *mesh) {
     return count;
 }
 
+static uint64_t use_in(const limn_mesh *mesh, uint32_t class_index) {
+    uint64_t count = 0;
+    for (uint32_t r = 0; r < mesh->run_count; r++) {
+        if (mesh->runs[r].class_index == class_index) count += mesh->runs[r].patch_count;
+    }
+    return count;
+}
+
+/// In patches of meshes and of channels.
 static uint64_t use_count(const limn_pack *pack, uint32_t class_index) {
     uint64_t count = 0;
     for (uint32_t m = 0; m < pack->mesh_count; m++) {
         const limn_mesh mesh = limn_pack_mesh(pack, m);
-        for (uint32_t r = 0; r < mesh.run_count; r++) {
-            if (mesh.runs[r].class_index == class_index) count += mesh.runs[r].patch_count;
+        count += use_in(&mesh, class_index);
+        for (uint32_t c = 0; c < mesh.channel_count; c++) {
+            const limn_channel channel = limn_mesh_channel(pack, &mesh, c);
+            count += use_in(&channel.mesh, class_index);
         }
     }
     return count;
+}
+
+static const char *kind_name(limn_channel_kind kind) {
+    return kind == LIMN_CHANNEL_UV ? "uv" : "colour";
+}
+
+static const char *face_varying_name(uint32_t face_varying) {
+    static const char *const names[] = {[LIMN_FACE_VARYING_DEFAULT] = "default",
+                                        [LIMN_FACE_VARYING_NONE] = "none",
+                                        [LIMN_FACE_VARYING_CORNERS_ONLY] = "corners-only",
+                                        [LIMN_FACE_VARYING_CORNERS_PLUS1] = "corners-plus1",
+                                        [LIMN_FACE_VARYING_CORNERS_PLUS2] = "corners-plus2",
+                                        [LIMN_FACE_VARYING_BOUNDARIES] = "boundaries",
+                                        [LIMN_FACE_VARYING_ALL] = "all"};
+    return face_varying <= LIMN_FACE_VARYING_ALL ? names[face_varying] : "unknown";
 }
 
 json_t *limni_json_text(const char *text) {
@@ -110,7 +142,31 @@ static json_t *describe_file(const limn_pack *pack) {
     return file;
 }
 
-static json_t *describe_mesh(const limn_mesh *mesh) {
+static json_t *describe_channel(const limn_channel *channel) {
+    json_t *const object = json_object();
+    const limn_mesh *const mesh = &channel->mesh;
+    json_object_set_new(object, "name", limni_json_text(mesh->name));
+    json_object_set_new(object, "kind", json_string(kind_name(channel->kind)));
+    json_object_set_new(object, "components", json_integer(channel->component_count));
+    json_object_set_new(object, "face_varying",
+                        json_string(face_varying_name(channel->face_varying)));
+    json_object_set_new(object, "values", json_integer(mesh->control_count));
+    json_object_set_new(object, "points", json_integer(mesh->point_count));
+    json_object_set_new(object, "patch_size", json_size(limni_lists_size(mesh)));
+    json_object_set_new(object, "runs", json_integer(mesh->run_count));
+    return object;
+}
+
+static json_t *describe_channels(const limn_pack *pack, const limn_mesh *mesh) {
+    json_t *const channels = json_array();
+    for (uint32_t c = 0; c < mesh->channel_count; c++) {
+        const limn_channel channel = limn_mesh_channel(pack, mesh, c);
+        json_array_append_new(channels, describe_channel(&channel));
+    }
+    return channels;
+}
+
+static json_t *describe_mesh(const limn_pack *pack, const limn_mesh *mesh) {
     json_t *const object = json_object();
     const uint64_t size = limni_patches_size(mesh);
     json_object_set_new(object, "name", limni_json_text(mesh->name));
@@ -130,6 +186,7 @@ static json_t *describe_mesh(const limn_mesh *mesh) {
     for (uint32_t level = 0; level < LIMN_LEVEL_MAX; level++)
         json_array_append_new(errors, json_real(medians[level]));
     json_object_set_new(object, "edge_errors", errors);
+    json_object_set_new(object, "channels", describe_channels(pack, mesh));
     return object;
 }
 
@@ -155,7 +212,7 @@ static void print_json(const limn_pack *pack) {
     json_t *const root = json_object(), *const meshes = json_array(), *const classes = json_array();
     for (uint32_t m = 0; m < pack->mesh_count; m++) {
         const limn_mesh mesh = limn_pack_mesh(pack, m);
-        json_t *const object = describe_mesh(&mesh);
+        json_t *const object = describe_mesh(pack, &mesh);
         limni_json_rig(object, pack, m);
         json_array_append_new(meshes, object);
     }
@@ -195,6 +252,24 @@ static void print_errors(const limn_pack *pack) {
     printf("(in lengths of an edge)\n");
 }
 
+static void print_channels(const limn_pack *pack) {
+    bool any = false;
+    for (uint32_t m = 0; m < pack->mesh_count; m++) {
+        const limn_mesh mesh = limn_pack_mesh(pack, m);
+        for (uint32_t c = 0; c < mesh.channel_count; c++) {
+            const limn_channel channel = limn_mesh_channel(pack, &mesh, c);
+            if (!any)
+                printf("\n%-24s %-12s %-7s %-14s %10s %12s %12s %8s\n", "mesh", "channel", "kind",
+                       "face-varying", "values", "patch bytes", "point bytes", "runs");
+            any = true;
+            printf("%-24s %-12s %-7s %-14s %10u %12llu %12llu %8u\n", mesh.name, channel.mesh.name,
+                   kind_name(channel.kind), face_varying_name(channel.face_varying),
+                   channel.mesh.control_count, (unsigned long long)limni_lists_size(&channel.mesh),
+                   (unsigned long long)limni_points_size(&channel.mesh), channel.mesh.run_count);
+        }
+    }
+}
+
 static void print_text(const char *path, const limn_pack *pack) {
     printf("%s: version %u, %zu bytes, of which %llu in the tables of %u classes\n", path,
            LIMN_FORMAT_VERSION, pack->blob_size, (unsigned long long)limni_tables_size(pack),
@@ -213,6 +288,7 @@ static void print_text(const char *path, const limn_pack *pack) {
                mesh.patch_count ? (double)size / mesh.patch_count : 0,
                (unsigned long long)limni_points_size(&mesh), count_classes(&mesh));
     }
+    print_channels(pack);
     print_errors(pack);
     limni_print_character(pack);
     printf("\n%6s  %-14s %14s %10s %10s\n", "class", "valences", "control points", "bytes",

@@ -11,7 +11,7 @@
 
 #include <float.h>
 
-static const double default_tolerance = 3e-7;
+static const double default_tolerance = 3e-7, channel_tolerance = 1e-6;
 
 static const char help[] =
     "usage: limn verify FILE.limn --against IN.obj [OPTIONS]\n\n"
@@ -26,7 +26,8 @@ static const char help[] =
     "      --repair[=STEPS] as for limn bake, if the mesh was repaired then\n"
     "      --non-manifold NAME  likewise\n"
     "      --tolerance X    fail when the largest difference is above X (default: 3e-7, and what\n"
-    "                       rounding coordinates to floats adds far from the origin)\n"
+    "                       rounding coordinates to floats adds far from the origin; of texture\n"
+    "                       coordinates 1e-6 of their extent)\n"
     "  -h, --help           this text\n";
 
 typedef struct arguments {
@@ -85,6 +86,26 @@ static int parse(int argc, char **argv, arguments *given) {
     return LIMNI_EXIT_OK;
 }
 
+/// Texture coordinates, in their extent.
+static int verify_channels(const arguments *given, const limn_pack *pack, const limn_mesh *mesh) {
+    const double allowed = given->tolerance >= 0 ? (double)given->tolerance : channel_tolerance;
+    for (uint32_t c = 0; c < mesh->channel_count; c++) {
+        limni_context context = {
+            .desc = {.repair = given->repair, .non_manifold = given->non_manifold}};
+        limni_channel_comparison comparison;
+        const int compared = limni_command_end(
+            &context, limni_compare_channel(&context, pack, mesh, c, given->against, &comparison));
+        if (compared != LIMNI_EXIT_OK) return compared;
+        printf("%s, channel %u: %llu values; largest difference, relative to their extent %g: %.3g "
+               "(face %u)\n",
+               mesh->name, c, (unsigned long long)comparison.value_count, comparison.extent,
+               comparison.largest, comparison.largest_face);
+        if (!(comparison.largest <= allowed))
+            return limni_failure("the largest difference in a channel is above %g", allowed);
+    }
+    return LIMNI_EXIT_OK;
+}
+
 static int verify(const arguments *given, const limn_pack *pack) {
     if (given->mesh >= pack->mesh_count)
         return limni_failure("%s: there is no mesh %u; the file has %u", given->input, given->mesh,
@@ -108,6 +129,8 @@ static int verify(const arguments *given, const limn_pack *pack) {
                comparison.mean_angle, (unsigned long long)comparison.degenerate_count,
                (unsigned long long)(comparison.normal_count + comparison.degenerate_count));
     fflush(stdout);
+    const int channels = verify_channels(given, pack, &mesh);
+    if (channels != LIMNI_EXIT_OK) return channels;
     const double allowed =
         given->tolerance >= 0 ? (double)given->tolerance : default_tolerance + comparison.rounding;
     if (!(comparison.largest <= allowed))

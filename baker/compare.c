@@ -1,14 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "compare.h"
 
-#include "base.h"
-#include "deviation.h"
-#include "info.h"
-#include "opensubdiv.h"
+#include "subject.h"
 
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 /// OpenSubdiv's surface: [faces of the base mesh][rows] of each.
 typedef struct answer {
@@ -18,19 +14,6 @@ typedef struct answer {
     bool *comparable;         ///< [vertices of the base mesh] whether normals are, there
     bool sided;               ///< on creases, each face has the tangents of its own side
 } answer;
-
-/// What a file says about how it was baked, or where its meshes differ, what the mesh asked for.
-static limn_boundary boundary_of(const char *name, const limni_mesh *source) {
-    if (strcmp(name, "mixed") == 0) return source->boundary;
-    if (strcmp(name, "none") == 0) return LIMN_BOUNDARY_NONE;
-    return strcmp(name, "edge-and-corner") == 0 ? LIMN_BOUNDARY_EDGE_AND_CORNER
-                                                : LIMN_BOUNDARY_EDGE_ONLY;
-}
-
-static limn_creasing creasing_of(const char *name, const limni_mesh *source) {
-    if (strcmp(name, "mixed") == 0) return source->creasing;
-    return strcmp(name, "chaikin") == 0 ? LIMN_CREASING_CHAIKIN : LIMN_CREASING_UNIFORM;
-}
 
 /// The most smooth edges that follow one another between two edges that stay sharp.
 static uint32_t longest_smooth_run(const limni_star *star, uint32_t first_sharp) {
@@ -92,147 +75,22 @@ static limn_bake_status find_comparable(limni_context *context, const limni_base
     return LIMN_BAKE_OK;
 }
 
-/// How a file was baked.
-typedef struct recipe {
-    limni_opensubdiv_scheme scheme;
-    limni_rules rules;
-} recipe;
-
-static limn_bake_status read_scheme(limni_context *context, const limn_pack *pack,
-                                    const limn_mesh *mesh, recipe *r) {
-    char scheme[32], weights[32];
-    limni_info_value(pack->info, "scheme", scheme, sizeof scheme);
-    limni_info_value(pack->info, "weights", weights, sizeof weights);
-    const bool quads = mesh->domain->kind == LIMN_DOMAIN_QUAD;
-    if (strcmp(scheme, "loop") == 0) {
-        *r = (recipe){LIMNI_OPENSUBDIV_LOOP, {.scheme = LIMN_SCHEME_LOOP}};
-        if (strcmp(weights, "loop") == 0) return LIMN_BAKE_OK;
-        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                          "the file was baked with %s weights, which OpenSubdiv does not have",
-                          weights);
-    }
-    if (strcmp(scheme, "catmark") == 0) {
-        *r = (recipe){LIMNI_OPENSUBDIV_CATMARK, {.scheme = LIMN_SCHEME_CATMARK}};
-    } else if (strcmp(scheme, "none") == 0 && quads) {
-        *r = (recipe){LIMNI_OPENSUBDIV_BILINEAR, {.scheme = LIMN_SCHEME_NONE}};
-    } else {
-        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                          "the file was baked with --scheme %s, which OpenSubdiv does not have%s",
-                          scheme, quads ? "" : " for triangles");
-    }
-    return LIMN_BAKE_OK;
-}
-
-/// A mesh twice.
-typedef struct subject {
-    limni_mesh built; ///< split where it is no manifold, if that was asked for
-    limni_mesh whole; ///< as OpenSubdiv takes it; with the same faces, half-edges and holes
-    limni_base base;  ///< of `built`
-} subject;
-
-static limn_bake_status read_subject(limni_context *context, const limn_pack *pack,
-                                     const char *name, const char *path, recipe *r, subject *s) {
-    char boundary[32], creases[32], creasing[32];
-    limni_source source = {0}, again = {0};
-    context->desc.scheme = r->rules.scheme;
-    LIMNI_TRY(limni_read_mesh(context, path, name, &source));
-    LIMNI_TRY(limni_mesh_build(context, &source, &s->built));
-    LIMNI_TRY(limni_read_mesh(context, path, name, &again));
-    LIMNI_TRY(limni_mesh_begin(context, &again, &s->whole));
-    limni_info_value(pack->info, "boundary", boundary, sizeof boundary);
-    limni_info_value(pack->info, "creases", creases, sizeof creases);
-    limni_info_value(pack->info, "creasing", creasing, sizeof creasing);
-    if (strcmp(creases, "lomont") == 0 &&
-        (limni_has_sharpness(&s->built) || limni_has_boundary(&s->built)))
-        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                          "%s: the mesh was baked with Lomont's rules for creases and boundaries, "
-                          "which OpenSubdiv does not have",
-                          path);
-    r->rules.boundary = boundary_of(boundary, &s->built);
-    r->rules.creasing = creasing_of(creasing, &s->built);
-    return limni_base_begin(context, &s->built, &r->rules, &s->base);
-}
-
-static limn_bake_status check_same(limni_context *context, const limn_mesh *mesh,
-                                   const subject *s) {
-    const limni_mesh *const source = &s->built;
-    if (mesh->control_count != source->control_count ||
-        mesh->face_count != s->base.mesh->face_count ||
-        memcmp(mesh->controls, source->controls,
-               source->control_count * sizeof *source->controls) != 0)
-        return limni_fail(
-            context, LIMN_BAKE_BAD_INPUT,
-            "%s: mesh '%s' was baked from something else, or repaired or split differently",
-            source->path, mesh->name);
-    return LIMN_BAKE_OK;
-}
-
-/// The corners of each face.
-static limn_bake_status list_sizes(limni_context *context, const limni_mesh *mesh,
-                                   uint32_t **sizes) {
-    *sizes = limni_allocate(context, mesh->face_count, sizeof **sizes);
-    if (!*sizes) return LIMN_BAKE_MEMORY;
-    for (uint32_t face = 0; face < mesh->face_count; face++)
-        (*sizes)[face] = limni_face_size(mesh, face);
-    return LIMN_BAKE_OK;
-}
-
-static limn_bake_status oracle(limni_context *context, const recipe *r, const subject *s,
-                               bool with_normals, answer *given) {
-    const limni_mesh *const source = &s->whole;
+static limn_bake_status oracle(limni_context *context, const limni_subject *s, bool with_normals,
+                               answer *given) {
     char error[512];
-    uint32_t *sizes;
-    LIMNI_TRY(list_sizes(context, source, &sizes));
-    const limni_opensubdiv_mesh mesh = {
-        .positions = source->controls[0],
-        .faces = source->corners,
-        .face_sizes = sizes,
-        .position_count = source->control_count,
-        .face_count = source->face_count,
-        .scheme = r->scheme,
-        .divided = s->base.divided,
-        .boundary = r->rules.boundary,
-        .level = LIMN_LEVEL_MAX,
-        .edge_sharpness = source->edge_sharpness,
-        .vertex_sharpness = source->vertex_sharpness,
-        .holes = source->holes,
-        .creasing = r->rules.creasing,
-    };
-    const uint32_t row_count = limn_domain_get(source->domain)->row_counts[LIMN_LEVEL_MAX];
+    limni_opensubdiv_mesh mesh;
+    LIMNI_TRY(limni_subject_describe(context, s, &mesh));
+    const uint32_t row_count = limn_domain_get(s->base.mesh->domain)->row_counts[LIMN_LEVEL_MAX];
     const size_t count = (size_t)s->base.mesh->face_count * row_count;
     given->limit = limni_allocate(context, count, sizeof *given->limit);
     if (with_normals) given->tangents = limni_allocate(context, count, sizeof *given->tangents);
     if (!given->limit || (with_normals && !given->tangents)) return LIMN_BAKE_MEMORY;
     given->base = s->base.mesh;
     given->sided = mesh.creasing != LIMN_CREASING_CHAIKIN;
-    LIMNI_TRY(find_comparable(context, &s->base, &r->rules, &given->comparable));
+    LIMNI_TRY(find_comparable(context, &s->base, &s->rules, &given->comparable));
     if (!limni_opensubdiv_limit(&mesh, given->limit, given->tangents, error, sizeof error))
-        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: OpenSubdiv: %s", source->path, error);
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: OpenSubdiv: %s", s->whole.path, error);
     return LIMN_BAKE_OK;
-}
-
-static uint32_t row_at(const limn_domain *domain, uint32_t i, uint32_t j) {
-    uint32_t row = 0;
-    while (domain->rows[row].i != i || domain->rows[row].j != j)
-        row++;
-    return row;
-}
-
-/// The row of the unrotated domain at the same place as `row` of a patch that starts at corner
-/// `rotation`.
-static uint32_t unrotate(const limn_domain *domain, uint32_t row, uint32_t rotation) {
-    uint32_t i = domain->rows[row].i, j = domain->rows[row].j;
-    for (; rotation > 0; rotation--) {
-        const uint32_t before = i;
-        if (domain->kind == LIMN_DOMAIN_QUAD) {
-            i = LIMN_GRID_SIZE - j;
-            j = before;
-        } else {
-            i = LIMN_GRID_SIZE - i - j;
-            j = before;
-        }
-    }
-    return row_at(domain, i, j);
 }
 
 static double distance(const float *a, const double *b) {
@@ -305,8 +163,7 @@ static bool is_comparable(const limn_mesh *mesh, const answer *given, uint32_t p
 }
 
 static void compare_normals(const limn_mesh *mesh, const answer *given, uint32_t patch,
-                            const float (*normals)[3],
-                            uint32_t unrotated[LIMN_CORNER_MAX][LIMNI_ROWS_MAX],
+                            const float (*normals)[3], limni_unrotated unrotated,
                             limni_comparison *comparison) {
     const uint32_t row_count = mesh->domain->row_counts[LIMN_LEVEL_MAX];
     const limn_patch_face face = limn_mesh_face(mesh, patch);
@@ -332,8 +189,7 @@ static void compare_normals(const limn_mesh *mesh, const answer *given, uint32_t
 }
 
 static void compare_patch(const limn_mesh *mesh, uint32_t patch, const float (*vertices)[3],
-                          const double (*limit)[3],
-                          uint32_t unrotated[LIMN_CORNER_MAX][LIMNI_ROWS_MAX],
+                          const double (*limit)[3], limni_unrotated unrotated,
                           limni_comparison *comparison) {
     const uint32_t row_count = mesh->domain->row_counts[LIMN_LEVEL_MAX];
     const limn_patch_face face = limn_mesh_face(mesh, patch);
@@ -353,13 +209,10 @@ static void compare_patch(const limn_mesh *mesh, uint32_t patch, const float (*v
 
 limn_bake_status limni_compare(limni_context *context, const limn_pack *pack, const limn_mesh *mesh,
                                const char *path, limni_comparison *comparison) {
-    subject read;
-    recipe baked;
+    limni_subject read;
     answer given = {0};
-    LIMNI_TRY(read_scheme(context, pack, mesh, &baked));
-    LIMNI_TRY(read_subject(context, pack, mesh->name, path, &baked, &read));
-    LIMNI_TRY(check_same(context, mesh, &read));
-    LIMNI_TRY(oracle(context, &baked, &read, mesh->normals, &given));
+    LIMNI_TRY(limni_subject_read(context, pack, mesh, path, &read));
+    LIMNI_TRY(oracle(context, &read, mesh->normals, &given));
 
     const limn_plan plan = limn_plan_uniform(mesh, LIMN_LEVEL_MAX);
     float(*const vertices)[3] =
@@ -376,11 +229,8 @@ limn_bake_status limni_compare(limni_context *context, const limn_pack *pack, co
     }
     limn_evaluate(&plan, mesh->controls, 0, plan.patch_count, &output);
 
-    uint32_t unrotated[LIMN_CORNER_MAX][LIMNI_ROWS_MAX];
-    for (uint32_t rotation = 0; rotation < mesh->domain->corner_count; rotation++) {
-        for (uint32_t row = 0; row < mesh->domain->row_counts[LIMN_LEVEL_MAX]; row++)
-            unrotated[rotation][row] = unrotate(mesh->domain, row, rotation);
-    }
+    limni_unrotated unrotated;
+    limni_unrotate(mesh->domain, unrotated);
     const float *const low = mesh->bounds_min;
     const double high[3] = {mesh->bounds_max[0], mesh->bounds_max[1], mesh->bounds_max[2]};
     *comparison =

@@ -26,4 +26,16 @@ typedef struct limni_comparison {
 limn_bake_status limni_compare(limni_context *context, const limn_pack *pack, const limn_mesh *mesh,
                                const char *path, limni_comparison *comparison);
 
+typedef struct limni_channel_comparison {
+    double extent;         ///< of the values, along the axis where they have the largest
+    double largest;        ///< difference of a component, relative to the extent
+    uint32_t largest_face; ///< as above
+    uint64_t value_count;  ///< compared; OpenSubdiv has no limit for some
+} limni_channel_comparison;
+
+/// The same for a channel of the mesh.
+limn_bake_status limni_compare_channel(limni_context *context, const limn_pack *pack,
+                                       const limn_mesh *mesh, uint32_t channel_index,
+                                       const char *path, limni_channel_comparison *comparison);
+
 #endif

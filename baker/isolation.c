@@ -119,14 +119,13 @@ uint32_t limni_isolation_list(limni_isolation *isolation, const limni_classes *p
 // ---- Classes
 
 /// What the class of a face is that was listed. Its parts are those of the isolation.
-static limni_class describe_class(const limni_isolation *isolation, const limni_rules *rules,
-                                  const limni_classes *pieces, uint32_t face, uint32_t rotation,
-                                  uint32_t count) {
+static limni_class describe_class(const limni_isolation *isolation, const limni_classes *pieces,
+                                  uint32_t face, uint32_t rotation, uint32_t count) {
     const limni_mesh *const mesh = isolation->mesh;
     const uint32_t size = limni_face_size(mesh, face), first = mesh->offsets[face];
     limni_class class = {.domain = mesh->domain,
                          .control_count = count,
-                         .table_count = rules->normals == LIMN_NORMALS_EXACT ? 3 : 1,
+                         .table_count = 3,
                          .parts = isolation->parts};
     for (uint32_t corner = 0; corner < size; corner++) {
         const uint32_t control = mesh->corners[first + (corner + rotation) % size];
@@ -137,8 +136,9 @@ static limni_class describe_class(const limni_isolation *isolation, const limni_
     for (uint32_t p = 0; p < LIMN_FORMAT_PIECE_COUNT; p++, columns += count) {
         const uint32_t key = isolation->assigned.keys[piece_face(isolation, face, rotation, p)];
         class.parts[p] = (uint16_t)pieces->keys[key].class_index;
-        const float negative = pieces->items[class.parts[p]].negative;
-        class.negative = negative > class.negative ? negative : class.negative;
+        const limni_class *const piece = &pieces->items[class.parts[p]];
+        class.negative = piece->negative > class.negative ? piece->negative : class.negative;
+        if (piece->table_count < class.table_count) class.table_count = piece->table_count;
         memcpy(columns, isolation->columns + p * isolation->points_max, count * sizeof *columns);
     }
     return class;
@@ -161,6 +161,6 @@ limn_bake_status limni_isolation_classify(limni_context *context, limni_isolatio
             isolation->mesh->name, limni_face_place(isolation->mesh, face, place),
             LIMN_FORMAT_CONTROLS_MAX);
     }
-    const limni_class class = describe_class(isolation, rules, pieces, face, rotation, count);
+    const limni_class class = describe_class(isolation, pieces, face, rotation, count);
     return limni_classes_find_parts(context, classes, &class, class_index);
 }

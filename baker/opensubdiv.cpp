@@ -25,21 +25,6 @@ namespace {
 // -------------------------------------------------------------------------------------------------
 // Limit positions
 
-struct point {
-    double v[3];
-
-    void Clear() {
-        v[0] = v[1] = v[2] = 0.0;
-    }
-    void AddWithWeight(const point &source, double weight) {
-        for (int axis = 0; axis < 3; axis++)
-            v[axis] += weight * source.v[axis];
-    }
-};
-
-/// OpenSubdiv counts in int; this many take some gigabytes.
-constexpr double FINE_FACES_MAX = 256e6;
-
 /// Limit positions, and if wanted tangents, of every vertex of the refiner's last level.
 struct limit_surface {
     std::vector<point> points, first, second;
@@ -70,30 +55,6 @@ limit_surface limit_points(const Far::TopologyRefiner &refiner, const float *pos
     return limit;
 }
 
-constexpr float SHARP_FOR_EVER = 10;
-
-/// After how many levels nothing is semi-sharp, or those of the grid.
-int needed_levels(const limni_opensubdiv_mesh &mesh) {
-    float sharpest = float(mesh.level + mesh.divided);
-    const auto raise = [&](const float *values, size_t count) {
-        for (size_t v = 0; values && v < count; v++)
-            if (values[v] < SHARP_FOR_EVER) sharpest = std::max(sharpest, values[v]);
-    };
-    raise(mesh.edge_sharpness, corner_count(mesh));
-    raise(mesh.vertex_sharpness, mesh.position_count);
-    return int(std::ceil(sharpest));
-}
-
-void refine_for_limit(Far::TopologyRefiner &refiner, const limni_opensubdiv_mesh &mesh) {
-    const int levels = needed_levels(mesh);
-    const double patch_levels = levels - mesh.divided;
-    require(limni_opensubdiv_patch_count(&mesh) * std::pow(4, patch_levels) <= FINE_FACES_MAX,
-            "the mesh has too many faces to refine it until nothing is semi-sharp");
-    Far::TopologyRefiner::UniformOptions options(levels);
-    options.fullTopologyInLastLevel = true; // without it Limit() prints, and returns garbage
-    if (levels > 0) refiner.RefineUniform(options);
-}
-
 void evaluate_vertices(Far::TopologyRefiner &refiner, const limni_opensubdiv_mesh &mesh,
                        double (*limit)[3], double (*tangents)[2][3]) {
     refine_for_limit(refiner, mesh);
@@ -117,16 +78,6 @@ void evaluate_vertices(Far::TopologyRefiner &refiner, const limni_opensubdiv_mes
 
 // -------------------------------------------------------------------------------------------------
 // Tagged meshes
-
-bool is_tagged(const limni_opensubdiv_mesh &mesh) {
-    const auto above = [](const float *values, size_t count) {
-        return values && std::any_of(values, values + count, [](float s) { return s > 0; });
-    };
-    return above(mesh.edge_sharpness, corner_count(mesh)) ||
-           above(mesh.vertex_sharpness, mesh.position_count) ||
-           (mesh.holes && std::count(mesh.holes, mesh.holes + mesh.face_count, true)) ||
-           mesh.boundary == LIMN_BOUNDARY_NONE;
-}
 
 bool is_manifold(const Far::TopologyLevel &base) {
     for (Far::Index vertex = 0; vertex < base.GetNumVertices(); vertex++)
@@ -205,25 +156,6 @@ void evaluate(const limni_opensubdiv_mesh &mesh, double (*limit)[3], double (*ta
 
 /// At this level it has converged.
 constexpr int CONVERGED_LEVEL = 15;
-
-int count_sharp_edges(const Far::TopologyLevel &base, Far::Index vertex) {
-    int count = 0;
-    const Far::ConstIndexArray edges = base.GetVertexEdges(vertex);
-    for (int e = 0; e < edges.size(); e++)
-        count += base.GetEdgeSharpness(edges[e]) >= SHARP_FOR_EVER;
-    return count;
-}
-
-/// The end of a crease that stays sharp, which has the limit of a smooth vertex, and with
-/// Catmull-Clark a smooth vertex of two faces, which stays where it is.
-bool converges(const limni_opensubdiv_mesh &mesh, const Far::TopologyLevel &base,
-               Far::Index vertex) {
-    if (base.GetVertexSharpness(vertex) >= SHARP_FOR_EVER) return false;
-    const int sharp_count = count_sharp_edges(base, vertex);
-    if (sharp_count == 0)
-        return mesh.scheme == LIMNI_OPENSUBDIV_CATMARK && base.GetVertexFaces(vertex).size() == 2;
-    return sharp_count == 1 && is_tagged(mesh);
-}
 
 /// The last vertex that a base vertex becomes, or INDEX_INVALID if it is not isolated to the end.
 Far::Index last_child(const Far::TopologyRefiner &refiner, Far::Index vertex) {

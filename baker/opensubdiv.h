@@ -74,6 +74,23 @@ uint32_t limni_opensubdiv_patch_count(const limni_opensubdiv_mesh *mesh);
 bool limni_opensubdiv_limit(const limni_opensubdiv_mesh *mesh, double (*limit)[3],
                             double (*tangents)[2][3], char *error, size_t error_size);
 
+/// Values that belong to the corners of faces.
+typedef struct limni_opensubdiv_channel {
+    const float *values; ///< [value_count][3]
+    uint32_t value_count;
+    const uint32_t *corner_values;  ///< one for each of the mesh's `faces`
+    limn_face_varying face_varying; ///< not the default
+} limni_opensubdiv_channel;
+
+/// Limits of a channel's values, as limni_opensubdiv_limit() has positions: uniform refinement to
+/// the level at which nothing is semi-sharp, and PrimvarRefiner::LimitFaceVarying. Where that limit
+/// depends on the level (see there), it is not a number.
+///
+/// limit  out: [patch_count][domain->row_counts[level]]
+bool limni_opensubdiv_values(const limni_opensubdiv_mesh *mesh,
+                             const limni_opensubdiv_channel *channel, double (*limit)[3],
+                             char *error, size_t error_size);
+
 /// What a Far::LimitStencilTable (float, positions only) occupies.
 typedef struct limni_opensubdiv_stencils {
     uint64_t stencil_count;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <climits>
+#include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -113,8 +114,27 @@ Sdc::Options::VtxBoundaryInterpolation boundary_interpolation(limn_boundary boun
     }
 }
 
-Sdc::Options scheme_options(const limni_opensubdiv_mesh &mesh) {
+Sdc::Options::FVarLinearInterpolation linear_interpolation(limn_face_varying face_varying) {
+    switch (face_varying) {
+    case LIMN_FACE_VARYING_NONE:
+        return Sdc::Options::FVAR_LINEAR_NONE;
+    case LIMN_FACE_VARYING_CORNERS_PLUS1:
+        return Sdc::Options::FVAR_LINEAR_CORNERS_PLUS1;
+    case LIMN_FACE_VARYING_CORNERS_PLUS2:
+        return Sdc::Options::FVAR_LINEAR_CORNERS_PLUS2;
+    case LIMN_FACE_VARYING_BOUNDARIES:
+        return Sdc::Options::FVAR_LINEAR_BOUNDARIES;
+    case LIMN_FACE_VARYING_ALL:
+        return Sdc::Options::FVAR_LINEAR_ALL;
+    default:
+        return Sdc::Options::FVAR_LINEAR_CORNERS_ONLY;
+    }
+}
+
+Sdc::Options scheme_options(const limni_opensubdiv_mesh &mesh,
+                            const limni_opensubdiv_channel *channel) {
     Sdc::Options options;
+    if (channel) options.SetFVarLinearInterpolation(linear_interpolation(channel->face_varying));
     options.SetVtxBoundaryInterpolation(boundary_interpolation(mesh.boundary));
     options.SetCreasingMethod(mesh.creasing == LIMN_CREASING_CHAIKIN
                                   ? Sdc::Options::CREASE_CHAIKIN
@@ -178,7 +198,8 @@ size_t corner_count(const limni_opensubdiv_mesh &mesh) {
     return count;
 }
 
-refiner_pointer create_refiner(const limni_opensubdiv_mesh &mesh) {
+refiner_pointer create_refiner(const limni_opensubdiv_mesh &mesh,
+                               const limni_opensubdiv_channel *channel) {
     require_faces(mesh);
     std::vector<int> face_sizes;
     for (size_t face = 0; face < mesh.face_count; face++)
@@ -191,13 +212,78 @@ refiner_pointer create_refiner(const limni_opensubdiv_mesh &mesh) {
     descriptor.vertIndicesPerFace = corners.data();
     const tags of_mesh(mesh);
     of_mesh.describe(descriptor);
+    Far::TopologyDescriptor::FVarChannel values;
+    std::vector<Far::Index> corner_values;
+    if (channel) {
+        corner_values.assign(channel->corner_values, channel->corner_values + corners.size());
+        values.numValues = int(channel->value_count);
+        values.valueIndices = corner_values.data();
+        descriptor.numFVarChannels = 1;
+        descriptor.fvarChannels = &values;
+    }
 
     using factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-    factory::Options options(scheme_type(mesh), scheme_options(mesh));
+    factory::Options options(scheme_type(mesh), scheme_options(mesh, channel));
     options.validateFullTopology = true;
     refiner_pointer refiner(factory::Create(descriptor, options));
     require(refiner != nullptr, "OpenSubdiv refused the mesh");
     return refiner;
+}
+
+namespace {
+
+/// OpenSubdiv counts in int; this many take some gigabytes.
+constexpr double FINE_FACES_MAX = 256e6;
+
+/// After how many levels nothing is semi-sharp, or those of the grid.
+int needed_levels(const limni_opensubdiv_mesh &mesh) {
+    float sharpest = float(mesh.level + mesh.divided);
+    const auto raise = [&](const float *values, size_t count) {
+        for (size_t v = 0; values && v < count; v++)
+            if (values[v] < SHARP_FOR_EVER) sharpest = std::max(sharpest, values[v]);
+    };
+    raise(mesh.edge_sharpness, corner_count(mesh));
+    raise(mesh.vertex_sharpness, mesh.position_count);
+    return int(std::ceil(sharpest));
+}
+
+int count_sharp_edges(const Far::TopologyLevel &base, Far::Index vertex) {
+    int count = 0;
+    const Far::ConstIndexArray edges = base.GetVertexEdges(vertex);
+    for (int e = 0; e < edges.size(); e++)
+        count += base.GetEdgeSharpness(edges[e]) >= SHARP_FOR_EVER;
+    return count;
+}
+
+} // namespace
+
+void refine_for_limit(Far::TopologyRefiner &refiner, const limni_opensubdiv_mesh &mesh) {
+    const int levels = needed_levels(mesh);
+    const double patch_levels = levels - mesh.divided;
+    require(limni_opensubdiv_patch_count(&mesh) * std::pow(4, patch_levels) <= FINE_FACES_MAX,
+            "the mesh has too many faces to refine it until nothing is semi-sharp");
+    Far::TopologyRefiner::UniformOptions options(levels);
+    options.fullTopologyInLastLevel = true; // without it Limit() prints, and returns garbage
+    if (levels > 0) refiner.RefineUniform(options);
+}
+
+bool is_tagged(const limni_opensubdiv_mesh &mesh) {
+    const auto above = [](const float *values, size_t count) {
+        return values && std::any_of(values, values + count, [](float s) { return s > 0; });
+    };
+    return above(mesh.edge_sharpness, corner_count(mesh)) ||
+           above(mesh.vertex_sharpness, mesh.position_count) ||
+           (mesh.holes && std::count(mesh.holes, mesh.holes + mesh.face_count, true)) ||
+           mesh.boundary == LIMN_BOUNDARY_NONE;
+}
+
+bool converges(const limni_opensubdiv_mesh &mesh, const Far::TopologyLevel &base,
+               Far::Index vertex) {
+    if (base.GetVertexSharpness(vertex) >= SHARP_FOR_EVER) return false;
+    const int sharp_count = count_sharp_edges(base, vertex);
+    if (sharp_count == 0)
+        return mesh.scheme == LIMNI_OPENSUBDIV_CATMARK && base.GetVertexFaces(vertex).size() == 2;
+    return sharp_count == 1 && is_tagged(mesh);
 }
 
 } // namespace limni_opensubdiv

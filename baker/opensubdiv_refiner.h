@@ -49,11 +49,39 @@ template <typename body_type> bool guard(char *error, size_t error_size, const b
     return false;
 }
 
+/// What PrimvarRefiner adds up.
+struct point {
+    double v[3];
+
+    void Clear() {
+        v[0] = v[1] = v[2] = 0.0;
+    }
+    void AddWithWeight(const point &source, double weight) {
+        for (int axis = 0; axis < 3; axis++)
+            v[axis] += weight * source.v[axis];
+    }
+};
+
 using refiner_pointer = std::unique_ptr<OpenSubdiv::Far::TopologyRefiner>;
 
-/// A refiner that is not refined yet. Throws when OpenSubdiv refuses the mesh, or would crash on
-/// it.
-refiner_pointer create_refiner(const limni_opensubdiv_mesh &mesh);
+/// A refiner that is not refined yet, with a channel or without. Throws when OpenSubdiv refuses the
+/// mesh, or would crash on it.
+refiner_pointer create_refiner(const limni_opensubdiv_mesh &mesh,
+                               const limni_opensubdiv_channel *channel = nullptr);
+
+/// Refines uniformly until nothing is semi-sharp, and as far as the grid of the mesh.
+void refine_for_limit(OpenSubdiv::Far::TopologyRefiner &refiner, const limni_opensubdiv_mesh &mesh);
+
+/// Whether the limit that OpenSubdiv gives a vertex of the mesh depends on the level of refinement:
+/// at the end of a crease that stays sharp, which has the limit of a smooth vertex, and with
+/// Catmull-Clark at a smooth vertex of two faces, which stays where it is.
+bool converges(const limni_opensubdiv_mesh &mesh, const OpenSubdiv::Far::TopologyLevel &base,
+               OpenSubdiv::Far::Index vertex);
+
+/// Whether something is sharp, or a hole.
+bool is_tagged(const limni_opensubdiv_mesh &mesh);
+
+constexpr float SHARP_FOR_EVER = 10;
 
 /// How many corners a face has, and all of them.
 uint32_t face_size(const limni_opensubdiv_mesh &mesh, size_t face);

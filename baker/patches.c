@@ -1,78 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 #include "patches.h"
 
+#include "arrangement.h"
 #include "limn/limn.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// How the faces of a mesh become patches.
-typedef struct arrangement {
-    const limni_base *base;
-    const limni_mesh *mesh; ///< of the base
-    const limni_rules *rules;
-    limni_classes *classes, *pieces;
-    limni_classifier classifier;
-    limni_assignment assigned; ///< its keys: without isolation
-    uint32_t *class_indices;   ///< [face_count]; holes have none
-    limni_isolation isolation; ///< empty without it
-} arrangement;
-
-static bool is_isolated(const arrangement *a) {
-    return a->rules->isolate == LIMN_ISOLATE_ALWAYS;
-}
-
-static limn_bake_status begin_arrangement(limni_context *context, arrangement *a) {
-    const limni_mesh *const mesh = a->mesh;
-    LIMNI_TRY(limni_classifier_begin(context, &a->classifier, mesh, a->base->sharpness, a->rules));
-    LIMNI_TRY(limni_check_valences(context, &a->classifier));
-    LIMNI_TRY(limni_assignment_begin(context, mesh->face_count, &a->assigned));
-    a->class_indices = limni_allocate(context, mesh->face_count, sizeof *a->class_indices);
-    if (!a->class_indices) return LIMN_BAKE_MEMORY;
-    return is_isolated(a)
-               ? limni_isolation_begin(context, mesh, a->base->sharpness, a->rules, &a->isolation)
-               : LIMN_BAKE_OK;
-}
-
-static void end_arrangement(limni_context *context, arrangement *a) {
-    if (is_isolated(a)) limni_isolation_end(context, &a->isolation);
-    limni_release(context, a->class_indices);
-    limni_assignment_end(context, &a->assigned);
-    limni_classifier_end(context, &a->classifier);
-}
-
-static limn_bake_status assign_class(limni_context *context, arrangement *a, uint32_t face) {
-    const limni_local_base *const base = limni_classify(&a->classifier, face);
-    uint32_t *const key = &a->assigned.keys[face];
-    a->assigned.rotations[face] = base->rotation;
-    if (is_isolated(a))
-        return limni_isolation_classify(context, &a->isolation, a->rules, face, base->rotation,
-                                        a->pieces, a->classes, &a->class_indices[face]);
-    LIMNI_TRY(limni_classes_find(context, a->classes, a->rules, base, LIMNI_TABLE_PATCH, key));
-    a->class_indices[face] = a->classes->keys[*key].class_index;
-    return LIMN_BAKE_OK;
-}
-
-static limn_bake_status assign_classes(limni_context *context, arrangement *a) {
-    const uint32_t face_count = a->mesh->face_count, step = face_count / 200 + 1;
-    for (uint32_t face = 0; face < face_count; face++) {
-        if (face % step == 0) limni_progress(context, "classify", face, face_count);
-        if (!a->mesh->holes[face]) LIMNI_TRY(assign_class(context, a, face));
-    }
-    limni_progress(context, "classify", face_count, face_count);
-    return is_isolated(a)
-               ? limni_check_agreement(context, &a->isolation.classifier, a->pieces,
-                                       &a->isolation.assigned)
-               : limni_check_agreement(context, &a->classifier, a->classes, &a->assigned);
-}
-
-// ---- Runs
+// ---- Order
 
 /// The material of a face, and 1; 0 where nothing is said.
-static uint32_t material_key(const arrangement *a, uint32_t face) {
-    const uint32_t *const materials = a->base->source->face_materials;
-    return materials ? materials[a->mesh->polygons[face]] + 1 : 0; // LIMN_FORMAT_NONE + 1 is 0
+static uint32_t material_key(const limni_base *base, uint32_t face) {
+    const uint32_t *const materials = base->source->face_materials;
+    return materials ? materials[base->mesh->polygons[face]] + 1 : 0; // LIMN_FORMAT_NONE + 1 is 0
 }
 
 /// Orders faces by their keys, those with the same key as they are.
@@ -95,83 +36,100 @@ static limn_bake_status sort_faces(limni_context *context, const uint32_t *keys,
     return LIMN_BAKE_OK;
 }
 
-/// Orders the faces by material, class, and number. Their rotations are added later.
-static limn_bake_status order_faces(limni_context *context, const arrangement *a,
-                                    limni_patches *patches) {
-    const limni_mesh *const mesh = a->mesh;
-    uint32_t count = 0, material_count = 0;
-    uint32_t *const materials = limni_allocate(context, mesh->face_count, sizeof *materials);
-    patches->faces = limni_allocate(context, patches->record.patch_count, sizeof *patches->faces);
-    if (!materials || !patches->faces) return LIMN_BAKE_MEMORY;
-    for (uint32_t face = 0; face < mesh->face_count; face++) {
-        materials[face] = material_key(a, face);
-        if (materials[face] >= material_count) material_count = materials[face] + 1;
-        if (!mesh->holes[face]) patches->faces[count++] = face;
+static limn_bake_status sort_by_material(limni_context *context, const limni_base *base,
+                                         uint32_t *faces, uint32_t count) {
+    const uint32_t face_count = base->mesh->face_count;
+    uint32_t *const keys = limni_allocate(context, face_count, sizeof *keys);
+    uint32_t key_count = 0;
+    if (!keys) return LIMN_BAKE_MEMORY;
+    for (uint32_t face = 0; face < face_count; face++) {
+        keys[face] = material_key(base, face);
+        if (keys[face] >= key_count) key_count = keys[face] + 1;
     }
-    LIMNI_TRY(sort_faces(context, a->class_indices, a->classes->count, patches->faces, count));
-    if (material_count > 1)
-        LIMNI_TRY(sort_faces(context, materials, material_count, patches->faces, count));
-    limni_release(context, materials);
+    if (key_count > 1) LIMNI_TRY(sort_faces(context, keys, key_count, faces, count));
+    limni_release(context, keys);
     return LIMN_BAKE_OK;
 }
 
-/// Whether a run begins with the p-th of the ordered faces.
-static bool begins_run(const arrangement *a, const uint32_t *faces, uint32_t p) {
-    return p == 0 || a->class_indices[faces[p]] != a->class_indices[faces[p - 1]] ||
-           material_key(a, faces[p]) != material_key(a, faces[p - 1]);
-}
-
-static limn_bake_status make_runs(limni_context *context, const arrangement *a,
-                                  limni_patches *patches) {
-    const uint32_t patch_count = patches->record.patch_count;
-    for (uint32_t p = 0; p < patch_count; p++)
-        patches->record.run_count += begins_run(a, patches->faces, p);
-    patches->runs =
-        limni_allocate_zeroed(context, patches->record.run_count, sizeof *patches->runs);
-    if (!patches->runs) return LIMN_BAKE_MEMORY;
-    limn_file_run *run = patches->runs;
-    for (uint32_t p = 0; p < patch_count; p++) {
-        const uint32_t class_index = a->class_indices[patches->faces[p]];
-        const limni_class *const class = &a->classes->items[class_index];
-        const limn_file_class record = limni_class_record(class);
-        const uint32_t slot_size = limn_file_slot_size(&record);
-        if (begins_run(a, patches->faces, p)) {
-            patches->slots_size += patches->slots_size % slot_size;
-            *run++ = (limn_file_run){.class_index = class_index,
-                                     .first_patch = p,
-                                     .first_index = patches->record.index_count,
-                                     .first_slot = patches->slots_size};
-        }
-        run[-1].patch_count++;
-        patches->record.index_count += class->control_count;
-        patches->slots_size += class->control_count * slot_size;
+/// Orders the faces that are drawn by material, within one by class, then by the classes that they
+/// have in the channels, and last by number.
+///
+/// all  [1 + channel_count] the mesh and its channels
+static limn_bake_status order_faces(limni_context *context, const limni_arrangement *all,
+                                    uint32_t channel_count, limni_patches *patches) {
+    const limni_mesh *const mesh = all[0].mesh;
+    const uint32_t count = patches->record.patch_count;
+    uint32_t *const faces = limni_allocate(context, count, sizeof *faces);
+    if (!faces) return LIMN_BAKE_MEMORY;
+    for (uint32_t face = 0, f = 0; face < mesh->face_count; face++) {
+        if (!mesh->holes[face]) faces[f++] = face;
     }
+    for (uint32_t a = channel_count + 1; a-- > 0;)
+        LIMNI_TRY(sort_faces(context, all[a].class_indices, all[a].classes->count, faces, count));
+    LIMNI_TRY(sort_by_material(context, all[0].base, faces, count));
+    for (uint32_t f = 0; f < count; f++)
+        faces[f] = faces[f] << 2 | all[0].assigned.rotations[faces[f]];
+    patches->faces = faces;
     return LIMN_BAKE_OK;
 }
 
 /// Where each material begins and ends, if there is one.
-static limn_bake_status list_ranges(limni_context *context, const arrangement *a,
+static limn_bake_status list_ranges(limni_context *context, const limni_base *base,
                                     limni_patches *patches) {
     const uint32_t patch_count = patches->record.patch_count;
     const uint32_t *const faces = patches->faces;
-    if (patch_count == 0 || material_key(a, faces[patch_count - 1]) == 0) return LIMN_BAKE_OK;
+    if (patch_count == 0 || material_key(base, faces[patch_count - 1] >> 2) == 0)
+        return LIMN_BAKE_OK;
     patches->ranges = limni_allocate(context, patch_count, sizeof *patches->ranges);
     if (!patches->ranges) return LIMN_BAKE_MEMORY;
     for (uint32_t p = 0; p < patch_count; p++) {
-        const uint32_t key = material_key(a, faces[p]);
-        if (p == 0 || key != material_key(a, faces[p - 1]))
+        const uint32_t key = material_key(base, faces[p] >> 2);
+        if (p == 0 || key != material_key(base, faces[p - 1] >> 2))
             patches->ranges[patches->range_count++] = (limn_file_range){key - 1, p, 0};
         patches->ranges[patches->range_count - 1].patch_count++;
     }
     return LIMN_BAKE_OK;
 }
 
-/// What the file says of the ordered faces.
-static void add_rotations(const arrangement *a, limni_patches *patches) {
-    for (uint32_t p = 0; p < patches->record.patch_count; p++) {
-        const uint32_t face = patches->faces[p];
-        patches->faces[p] = face << 2 | a->assigned.rotations[face];
+// ---- Runs
+
+static uint32_t class_at(const limni_arrangement *a, const limni_patches *patches, uint32_t patch) {
+    return a->class_indices[patches->faces[patch] >> 2];
+}
+
+/// Patches up to the next of another class.
+static uint32_t run_end(const limni_arrangement *a, const limni_patches *patches, uint32_t begin) {
+    uint32_t end = begin + 1;
+    while (end < patches->record.patch_count &&
+           class_at(a, patches, end) == class_at(a, patches, begin))
+        end++;
+    return end;
+}
+
+static limn_bake_status make_runs(limni_context *context, const limni_arrangement *a,
+                                  limni_patches *patches) {
+    limn_file_mesh *const record = &patches->record;
+    for (uint32_t p = 0; p < record->patch_count; p = run_end(a, patches, p))
+        record->run_count++;
+    patches->runs = limni_allocate_zeroed(context, record->run_count, sizeof *patches->runs);
+    if (!patches->runs) return LIMN_BAKE_MEMORY;
+    limn_file_run *run = patches->runs;
+    for (uint32_t p = 0, end; p < record->patch_count; p = end) {
+        const uint32_t class_index = class_at(a, patches, p);
+        const limn_file_class class = limni_class_record(&a->classes->items[class_index]);
+        const uint32_t slot_size = limn_file_slot_size(&class);
+        end = run_end(a, patches, p);
+        patches->slots_size += patches->slots_size % slot_size;
+        *run++ = (limn_file_run){.class_index = class_index,
+                                 .first_patch = p,
+                                 .patch_count = end - p,
+                                 .first_index = record->index_count,
+                                 .first_slot = patches->slots_size};
+        const uint64_t count = (uint64_t)(end - p) * class.control_count;
+        record->index_count += count;
+        patches->slots_size += count * slot_size;
     }
+    return LIMN_BAKE_OK;
 }
 
 // ---- Control lists
@@ -211,27 +169,7 @@ static void store_points(uint64_t *pairs, uint32_t count, uint32_t slot_size, ui
     }
 }
 
-/// The points of a patch: vertices of the base mesh, or of the level that isolates it, which follow
-/// those. Returns how many.
-static uint32_t list_points(arrangement *a, uint32_t face, uint32_t rotation, uint64_t *pairs) {
-    if (is_isolated(a)) {
-        const uint32_t count = limni_isolation_list(&a->isolation, a->pieces, face, rotation);
-        const uint32_t first = a->base->first + a->mesh->control_count;
-        for (uint32_t slot = 0; slot < count; slot++)
-            pairs[slot] = (uint64_t)(first + a->isolation.points[slot]) << 32 | slot;
-        return count;
-    }
-    const limni_local_base *const base = limni_local_base_at(&a->classifier, face, rotation);
-    const limni_class_key *const key = &a->classes->keys[a->assigned.keys[face]];
-    uint32_t count = 0;
-    for (uint32_t slot = 0; slot < base->control_count; slot++) {
-        if (key->slots[slot] == LIMNI_SLOT_UNUSED) continue;
-        pairs[count++] = (uint64_t)(a->base->first + base->controls[slot]) << 32 | key->slots[slot];
-    }
-    return count;
-}
-
-static limn_bake_status list_controls(limni_context *context, arrangement *a,
+static limn_bake_status list_controls(limni_context *context, limni_arrangement *a,
                                       limni_patches *patches) {
     patches->indices = limni_allocate(context, patches->record.index_count, sizeof(uint32_t));
     patches->slots = limni_allocate_zeroed(context, patches->slots_size, 1);
@@ -239,11 +177,11 @@ static limn_bake_status list_controls(limni_context *context, arrangement *a,
     if (!patches->indices || !patches->slots || !pairs) return LIMN_BAKE_MEMORY;
     for (uint32_t r = 0; r < patches->record.run_count; r++) {
         const limn_file_run *const run = &patches->runs[r];
-        const limn_file_class record = limni_class_record(&a->classes->items[run->class_index]);
-        const uint32_t slot_size = limn_file_slot_size(&record);
+        const limn_file_class class = limni_class_record(&a->classes->items[run->class_index]);
+        const uint32_t slot_size = limn_file_slot_size(&class);
         for (uint32_t p = 0; p < run->patch_count; p++) {
-            const uint32_t packed = patches->faces[run->first_patch + p];
-            const uint32_t count = list_points(a, packed >> 2, packed & 3, pairs);
+            const uint32_t face = patches->faces[run->first_patch + p] >> 2;
+            const uint32_t count = limni_arrangement_list(a, face, pairs);
             const uint64_t skipped = (uint64_t)p * count;
             store_points(pairs, count, slot_size, patches->indices + run->first_index + skipped,
                          patches->slots + run->first_slot + skipped * slot_size);
@@ -333,11 +271,12 @@ static limn_bake_status append_points(limni_context *context, const limni_stenci
 
 /// Behind the control points, the vertices of a mesh that was divided, and those of the level that
 /// isolates it.
-static limn_bake_status place_points(limni_context *context, const arrangement *a,
+static limn_bake_status place_points(limni_context *context, const limni_arrangement *a,
                                      limni_patches *patches) {
     const limni_base *const base = a->base;
     const uint32_t count = base->source->control_count;
-    if (!base->divided && !is_isolated(a)) return LIMN_BAKE_OK;
+    const bool isolated = a->rules->isolate == LIMN_ISOLATE_ALWAYS;
+    if (!base->divided && !isolated) return LIMN_BAKE_OK;
     patches->controls = limni_allocate(context, count, sizeof *patches->controls);
     if (!patches->controls) return LIMN_BAKE_MEMORY;
     memcpy(patches->controls, base->source->controls, count * sizeof *patches->controls);
@@ -345,7 +284,7 @@ static limn_bake_status place_points(limni_context *context, const arrangement *
         LIMNI_TRY(append_points(context, &base->stencils, base->mesh->control_count, 0, patches));
         patches->record.divided_count = base->mesh->control_count;
     }
-    if (!is_isolated(a)) return LIMN_BAKE_OK;
+    if (!isolated) return LIMN_BAKE_OK;
     return append_points(context, &a->isolation.stencils, a->isolation.refined.mesh.control_count,
                          base->first, patches);
 }
@@ -379,12 +318,10 @@ static void find_bounds(const limni_mesh *mesh, const limni_rules *rules, limn_f
     }
 }
 
-limn_bake_status limni_patches_build(limni_context *context, const limni_base *base,
-                                     const limni_rules *rules, limni_classes *classes,
-                                     limni_classes *pieces, limni_patches *patches) {
+static limni_patches describe(const limni_base *base, const limni_rules *rules, const char *name) {
     const limni_mesh *const mesh = base->mesh;
-    *patches = (limni_patches){
-        .name = mesh->name,
+    limni_patches patches = {
+        .name = name,
         .controls = base->source->controls,
         .rules = *rules,
         .sharp = limni_has_sharpness(base->source),
@@ -394,19 +331,58 @@ limn_bake_status limni_patches_build(limni_context *context, const limni_base *b
                    .patch_count = mesh->face_count - mesh->hole_count,
                    .hole_count = mesh->hole_count},
     };
-    find_bounds(base->source, rules, &patches->record);
-    arrangement a = {
-        .base = base, .mesh = mesh, .rules = rules, .classes = classes, .pieces = pieces};
-    LIMNI_TRY(begin_arrangement(context, &a));
-    LIMNI_TRY(assign_classes(context, &a));
-    LIMNI_TRY(order_faces(context, &a, patches));
-    LIMNI_TRY(make_runs(context, &a, patches));
-    LIMNI_TRY(list_ranges(context, &a, patches));
-    add_rotations(&a, patches);
-    LIMNI_TRY(list_controls(context, &a, patches));
-    LIMNI_TRY(list_creases(context, mesh, base->sharpness, patches));
+    find_bounds(base->source, rules, &patches.record);
+    return patches;
+}
+
+/// The patches whose faces are ordered.
+static limn_bake_status list_patches(limni_context *context, limni_arrangement *a,
+                                     limni_patches *patches) {
+    LIMNI_TRY(make_runs(context, a, patches));
+    LIMNI_TRY(list_controls(context, a, patches));
+    return place_points(context, a, patches);
+}
+
+static limn_bake_status arrange(limni_context *context, const limni_base *base,
+                                const limni_channel *channels, uint32_t channel_count,
+                                limni_classes *classes, limni_classes *pieces,
+                                const limni_patches *patches, limni_arrangement *all) {
+    LIMNI_TRY(limni_arrangement_begin(context, base, &patches->rules, NULL, classes, pieces, all));
+    for (uint32_t c = 0; c < channel_count; c++)
+        LIMNI_TRY(limni_arrangement_begin(context, &channels[c].base, &channels[c].rules,
+                                          all[0].assigned.rotations, classes, pieces, &all[1 + c]));
+    return LIMN_BAKE_OK;
+}
+
+static limn_bake_status list_channel(limni_context *context, const limni_channel *channel,
+                                     limni_arrangement *a, uint32_t *faces,
+                                     limni_patches *patches) {
+    *patches = describe(&channel->base, &channel->rules, channel->name);
+    patches->channel_record = channel->record;
+    patches->faces = faces;
+    return list_patches(context, a, patches);
+}
+
+limn_bake_status limni_patches_build(limni_context *context, const limni_base *base,
+                                     const limni_rules *rules, const limni_channel *channels,
+                                     uint32_t channel_count, limni_classes *classes,
+                                     limni_classes *pieces, limni_patches *patches) {
+    *patches = describe(base, rules, base->mesh->name);
+    patches->record.channel_count = channel_count;
+    patches->channels = limni_allocate(context, channel_count, sizeof *patches->channels);
+    limni_arrangement *const all = limni_allocate(context, 1 + (size_t)channel_count, sizeof *all);
+    if (!patches->channels || !all) return LIMN_BAKE_MEMORY;
+    LIMNI_TRY(arrange(context, base, channels, channel_count, classes, pieces, patches, all));
+    LIMNI_TRY(order_faces(context, all, channel_count, patches));
+    LIMNI_TRY(list_patches(context, &all[0], patches));
+    LIMNI_TRY(list_ranges(context, base, patches));
+    LIMNI_TRY(list_creases(context, base->mesh, base->sharpness, patches));
     LIMNI_TRY(make_normals(context, base, rules, patches));
-    LIMNI_TRY(place_points(context, &a, patches));
-    end_arrangement(context, &a);
+    for (uint32_t c = 0; c < channel_count; c++)
+        LIMNI_TRY(list_channel(context, &channels[c], &all[1 + c], patches->faces,
+                               &patches->channels[c]));
+    for (uint32_t a = 0; a <= channel_count; a++)
+        limni_arrangement_end(context, &all[a]);
+    limni_release(context, all);
     return LIMN_BAKE_OK;
 }

@@ -3,9 +3,9 @@
 #ifndef LIMNI_PATCHES_H
 #define LIMNI_PATCHES_H
 
-#include "base.h"
+#include "channel.h"
+#include "classes.h"
 #include "control_normals.h"
-#include "isolation.h"
 #include "rig.h"
 
 /// Bytes of a mesh baked alone, without control points and their normals.
@@ -23,7 +23,7 @@ typedef struct limni_patches {
     limni_stencils stencils;       ///< of all points behind the control points
     limni_footprint footprints[2]; ///< with LIMN_ISOLATE_AUTO; otherwise 0
     limn_file_run *runs;
-    uint32_t *faces;   ///< [patch_count] face << 2 | rotation
+    uint32_t *faces;   ///< [patch_count] face << 2 | rotation; channels share those of the mesh
     uint32_t *indices; ///< [index_count]
     uint8_t *slots;
     uint64_t slots_size;           ///< in bytes
@@ -35,13 +35,18 @@ typedef struct limni_patches {
     limni_control_rig rig; ///< empty, unless the source has one
     limn_file_range *ranges; ///< [range_count] of materials; NULL: nothing is said of them
     uint32_t range_count;
+    struct limni_patches *channels;   ///< [record.channel_count] in the same order
+    limn_file_channel channel_record; ///< of a channel, which has no errors, creases or normals
 } limni_patches;
 
-/// All but the errors of edges: classifies every face of a base mesh and lists its patches; adds the
-/// classes and the pieces that are new. Checks that patches which share an edge agree on it, and
-/// fails with LIMN_BAKE_INTERNAL if any two do not.
+/// All but the errors of edges: classifies every face of a base mesh, and of its channels, and lists
+/// its patches; adds the classes and the pieces that are new. Checks that patches which share an
+/// edge agree on it, and fails with LIMN_BAKE_INTERNAL if any two do not.
+///
+/// channels  [channel_count] of the base
 limn_bake_status limni_patches_build(limni_context *context, const limni_base *base,
-                                     const limni_rules *rules, limni_classes *classes,
+                                     const limni_rules *rules, const limni_channel *channels,
+                                     uint32_t channel_count, limni_classes *classes,
                                      limni_classes *pieces, limni_patches *patches);
 
 static inline uint32_t limni_corner_count(const limni_patches *patches) {

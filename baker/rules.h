@@ -16,6 +16,7 @@ typedef struct limni_rules {
     limn_creasing creasing; ///< uniform with Lomont's creases
     limn_normals normals;
     limn_isolate isolate;
+    limn_face_varying face_varying;
 } limni_rules;
 
 #endif

@@ -19,15 +19,20 @@ uint64_t limni_columns_size(const limn_pack *pack) {
     return words * sizeof(uint16_t);
 }
 
-uint64_t limni_patches_size(const limn_mesh *mesh) {
-    uint64_t size = mesh->run_count * sizeof(limn_file_run) + mesh->patch_count * sizeof(uint32_t);
-    size += (uint64_t)mesh->patch_count * mesh->domain->corner_count * sizeof *mesh->errors;
+uint64_t limni_lists_size(const limn_mesh *mesh) {
+    uint64_t size = mesh->run_count * sizeof(limn_file_run);
     for (uint32_t r = 0; r < mesh->run_count; r++) {
         const limn_file_class *const class = &mesh->classes[mesh->runs[r].class_index];
         size += (uint64_t)mesh->runs[r].patch_count * class->control_count *
                 (sizeof(uint32_t) + limn_file_slot_size(class));
     }
     return size;
+}
+
+uint64_t limni_patches_size(const limn_mesh *mesh) {
+    const uint64_t per_patch =
+        sizeof *mesh->faces + mesh->domain->corner_count * sizeof *mesh->errors;
+    return limni_lists_size(mesh) + mesh->patch_count * per_patch;
 }
 
 uint64_t limni_points_size(const limn_mesh *mesh) {

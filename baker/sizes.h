@@ -11,6 +11,9 @@ uint64_t limni_tables_size(const limn_pack *pack);
 /// The columns of classes that are in pieces.
 uint64_t limni_columns_size(const limn_pack *pack);
 
+/// What the patches of a mesh or a channel list: runs, control indices and slots.
+uint64_t limni_lists_size(const limn_mesh *mesh);
+
 /// The patches of a mesh: all that grows with its faces.
 uint64_t limni_patches_size(const limn_mesh *mesh);
 

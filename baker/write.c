@@ -21,6 +21,7 @@ enum {
     CHUNKS_OF_NORMALS = 3,
     CHUNKS_OF_CREASES = 3,
     CHUNKS_OF_POINTS = 2,
+    CHUNKS_OF_CHANNEL = 7,
     CHUNKS_OF_CHARACTER = 8,
     CHUNKS_OF_RIG = 7
 };
@@ -45,28 +46,38 @@ static void add_part(part *parts, uint32_t *count, uint32_t kind, uint32_t mesh,
     if (data) parts[(*count)++] = (part){kind, mesh, data, size};
 }
 
-static void list_mesh(const limni_patches *mesh, uint32_t m, part *parts, uint32_t *count) {
+/// What meshes and channels have.
+static void list_patches(const limni_patches *mesh, uint32_t m, part *parts, uint32_t *count) {
     const limn_file_mesh *const record = &mesh->record;
-    const part of_mesh[CHUNKS_OF_MESH] = {
-        {LIMN_CHUNK_MESH, m, record, sizeof *record},
-        {LIMN_CHUNK_NAME, m, mesh->name, strlen(mesh->name) + 1},
-        {LIMN_CHUNK_CONTROLS, m, mesh->controls, record->point_count * sizeof *mesh->controls},
-        {LIMN_CHUNK_RUNS, m, mesh->runs, record->run_count * sizeof *mesh->runs},
-        {LIMN_CHUNK_FACES, m, mesh->faces, record->patch_count * sizeof *mesh->faces},
-        {LIMN_CHUNK_INDICES, m, mesh->indices, record->index_count * sizeof *mesh->indices},
-        {LIMN_CHUNK_SLOTS, m, mesh->slots, mesh->slots_size},
-        {LIMN_CHUNK_ERRORS, m, mesh->errors,
-         (uint64_t)limni_corner_count(mesh) * record->patch_count * sizeof *mesh->errors},
-    };
-    memcpy(parts + *count, of_mesh, sizeof of_mesh);
-    *count += CHUNKS_OF_MESH;
-    add_part(parts, count, LIMN_CHUNK_CREASES, m, mesh->creases, record->patch_count);
+    add_part(parts, count, LIMN_CHUNK_MESH, m, record, sizeof *record);
+    add_part(parts, count, LIMN_CHUNK_NAME, m, mesh->name, strlen(mesh->name) + 1);
+    add_part(parts, count, LIMN_CHUNK_CONTROLS, m, mesh->controls,
+             record->point_count * sizeof *mesh->controls);
+    add_part(parts, count, LIMN_CHUNK_RUNS, m, mesh->runs, record->run_count * sizeof *mesh->runs);
+    add_part(parts, count, LIMN_CHUNK_INDICES, m, mesh->indices,
+             record->index_count * sizeof *mesh->indices);
+    add_part(parts, count, LIMN_CHUNK_SLOTS, m, mesh->slots, mesh->slots_size);
     if (!mesh->stencils.offsets) return;
     const uint32_t point_count = record->point_count - record->control_count;
     add_part(parts, count, LIMN_CHUNK_STENCILS, m, mesh->stencils.offsets,
              (1 + (uint64_t)point_count) * sizeof(uint32_t));
     add_part(parts, count, LIMN_CHUNK_TERMS, m, mesh->stencils.terms,
              mesh->stencils.offsets[point_count] * sizeof(limn_file_term));
+}
+
+static void list_mesh(const limni_patches *mesh, uint32_t m, part *parts, uint32_t *count) {
+    const uint64_t patch_count = mesh->record.patch_count;
+    list_patches(mesh, m, parts, count);
+    add_part(parts, count, LIMN_CHUNK_FACES, m, mesh->faces, patch_count * sizeof *mesh->faces);
+    add_part(parts, count, LIMN_CHUNK_ERRORS, m, mesh->errors,
+             limni_corner_count(mesh) * patch_count * sizeof *mesh->errors);
+    add_part(parts, count, LIMN_CHUNK_CREASES, m, mesh->creases, patch_count);
+}
+
+static void list_channel(const limni_patches *channel, uint32_t m, part *parts, uint32_t *count) {
+    list_patches(channel, m, parts, count);
+    add_part(parts, count, LIMN_CHUNK_CHANNEL, m, &channel->channel_record,
+             sizeof channel->channel_record);
 }
 
 /// The vertices that have normals.
@@ -249,6 +260,27 @@ static void fill_blob(const shared *s, const part *parts, uint32_t count,
     memcpy(blob, header, sizeof *header);
 }
 
+/// Lists meshes, and behind them their channels, and says there where those are.
+static void list_meshes(limni_patches *meshes, uint32_t mesh_count, part *parts, uint32_t *count) {
+    uint32_t channel = 0;
+    for (uint32_t m = 0; m < mesh_count; m++) {
+        limni_patches *const mesh = &meshes[m];
+        list_mesh(mesh, m, parts, count);
+        if (mesh->normals.records) list_normals(mesh, m, parts, count);
+        list_rig(mesh, m, parts, count);
+        mesh->record.first_channel = channel;
+        for (uint32_t c = 0; c < mesh->record.channel_count; c++)
+            list_channel(&mesh->channels[c], mesh_count + channel++, parts, count);
+    }
+}
+
+static uint32_t count_channels(const limni_patches *meshes, uint32_t mesh_count) {
+    uint32_t count = 0;
+    for (uint32_t m = 0; m < mesh_count; m++)
+        count += meshes[m].record.channel_count;
+    return count;
+}
+
 /// The boundary rule of all meshes, or that they differ.
 static const char *boundary_name(const limni_patches *meshes, uint32_t mesh_count) {
     static const char *const names[] = {[LIMN_BOUNDARY_EDGE_ONLY] = "edge-only",
@@ -323,13 +355,14 @@ static void describe(const limni_rules *rules, const limni_patches *meshes, uint
 
 limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rules,
                                   const limni_classes *classes, const limni_classes *pieces,
-                                  const limni_patches *meshes, uint32_t mesh_count,
+                                  limni_patches *meshes, uint32_t mesh_count,
                                   const limni_character *character, unsigned char **blob,
                                   size_t *blob_size) {
-    const bool with_normals = rules->normals == LIMN_NORMALS_EXACT;
-    const uint32_t per_mesh =
+    const uint32_t channel_count = count_channels(meshes, mesh_count);
+    const size_t per_mesh =
         CHUNKS_OF_MESH + CHUNKS_OF_NORMALS + CHUNKS_OF_CREASES + CHUNKS_OF_POINTS + CHUNKS_OF_RIG;
-    const uint32_t room = CHUNKS_OF_FILE + CHUNKS_OF_CHARACTER + per_mesh * mesh_count;
+    const size_t room = CHUNKS_OF_FILE + CHUNKS_OF_CHARACTER + per_mesh * mesh_count +
+                        (CHUNKS_OF_CHANNEL + CHUNKS_OF_POINTS) * (size_t)channel_count;
     part *const parts = limni_allocate(context, room, sizeof *parts);
     limn_file_chunk *const directory = limni_allocate(context, room, sizeof *directory);
     shared all = {.classes = classes, .pieces = pieces};
@@ -342,11 +375,7 @@ limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rul
     describe(rules, meshes, mesh_count, info, sizeof info);
     list_shared(&all, info, parts, &part_count);
     list_character(character, parts, &part_count);
-    for (uint32_t m = 0; m < mesh_count; m++) {
-        list_mesh(&meshes[m], m, parts, &part_count);
-        if (with_normals) list_normals(&meshes[m], m, parts, &part_count);
-        list_rig(&meshes[m], m, parts, &part_count);
-    }
+    list_meshes(meshes, mesh_count, parts, &part_count);
     qsort(parts, part_count, sizeof *parts, compare_parts);
 
     limn_file_header header = {
@@ -355,6 +384,7 @@ limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rul
         .chunk_count = part_count,
         .mesh_count = mesh_count,
         .class_count = classes->count,
+        .channel_count = channel_count,
     };
     memcpy(header.magic, LIMN_FORMAT_MAGIC, sizeof header.magic);
     *blob = limni_allocate_zeroed(context, (size_t)header.size, 1);

@@ -10,7 +10,7 @@
 
 #include <stdio.h>
 
-/// Polygons, and their tags as OpenSubdiv's (read_tag.h). Tags must have been checked
+/// Polygons with texture coordinates, and their tags as OpenSubdiv's (read_tag.h). Tags must have been checked
 /// (limni_check_tags), and faces not yet triangulated.
 void limni_write_obj(const limni_source *source, FILE *stream);
 

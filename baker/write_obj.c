@@ -40,12 +40,25 @@ static void write_tags(const limni_tags *tags, FILE *stream) {
         limni_write_hole_tag(tags->holes[h].face, stream);
 }
 
+/// The channel that OBJ has room for.
+static const limni_source_channel *find_uv(const limni_source *source) {
+    for (uint32_t c = 0; c < source->channel_count; c++) {
+        if (source->channels[c].kind == LIMN_CHANNEL_UV) return &source->channels[c];
+    }
+    return NULL;
+}
+
 void limni_write_obj(const limni_source *source, FILE *stream) {
+    const limni_source_channel *const uv = find_uv(source);
     limni_write_positions((const float(*)[3])source->positions, source->position_count, stream);
+    for (uint32_t v = 0; uv && v < uv->value_count; v++)
+        fprintf(stream, "vt %.9g %.9g\n", (double)uv->values[v][0], (double)uv->values[v][1]);
     for (uint32_t face = 0; face < source->face_count; face++) {
         fputc('f', stream);
-        for (uint32_t c = source->face_offsets[face]; c < source->face_offsets[face + 1]; c++)
+        for (uint32_t c = source->face_offsets[face]; c < source->face_offsets[face + 1]; c++) {
             fprintf(stream, " %u", source->face_corners[c] + 1);
+            if (uv) fprintf(stream, "/%u", uv->corner_values[c] + 1);
+        }
         fputc('\n', stream);
     }
     write_tags(&source->tags, stream);

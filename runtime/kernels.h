@@ -92,20 +92,43 @@ typedef struct limni_points {
                            ///< light
 } limni_points;
 
+/// How the rows of a run are written: positions, or the values of a channel.
+typedef enum limni_format {
+    LIMNI_FLOAT3,
+    LIMNI_UNORM16X4,
+    LIMNI_FLOAT2,
+    LIMNI_HALF2,
+    LIMNI_UNORM16X2,
+    LIMNI_RGBA8
+} limni_format;
+
+/// Words of 4 bytes.
+static inline uint32_t limni_format_words(limni_format format) {
+    switch (format) {
+    case LIMNI_FLOAT3:
+        return 3;
+    case LIMNI_UNORM16X4:
+    case LIMNI_FLOAT2:
+        return 2;
+    default:
+        return 1;
+    }
+}
+
 /// Where the vertices of a run go, one patch behind the other.
 typedef struct limni_target {
     unsigned char *vertices; ///< aligned to 4 bytes
     size_t stride;           ///< bytes from vertex to vertex
     unsigned char *normals;  ///< the same for normals; NULL: none are written
     size_t normal_stride;
+    limni_format format;
     unsigned char *colours; ///< the same for colours; NULL: none are written
     size_t colour_stride;
     const limn_lighting *lighting; ///< NULL: there are no colours
     const limni_grid *grid;        ///< of the domain
     bool tangents;                 ///< all rows need a normal, to write it or to light them
-    limn_position_format position_format;
     limn_normal_format normal_format;
-    float box_min[3], box_scale[3]; ///< packed positions are (position - min) * scale
+    float box_min[3], box_scale[3]; ///< packed positions and values are (position - min) * scale
     bool streaming;
     uint32_t level; ///< of patches without items
     const limn_domain *domain;

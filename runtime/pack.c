@@ -15,13 +15,16 @@
 
 static const uint32_t kinds_of_file[] = {LIMN_CHUNK_INFO, LIMN_CHUNK_CLASSES, LIMN_CHUNK_TABLES,
                                          LIMN_CHUNK_PIECES, LIMN_CHUNK_COLUMNS};
-static const uint32_t kinds_of_mesh[] = {LIMN_CHUNK_MESH,  LIMN_CHUNK_NAME,  LIMN_CHUNK_CONTROLS,
-                                         LIMN_CHUNK_RUNS,  LIMN_CHUNK_FACES, LIMN_CHUNK_INDICES,
-                                         LIMN_CHUNK_SLOTS, LIMN_CHUNK_ERRORS};
+/// Of meshes, and of channels, which lack the last two.
+static const uint32_t kinds_of_mesh[] = {LIMN_CHUNK_MESH,  LIMN_CHUNK_NAME,    LIMN_CHUNK_CONTROLS,
+                                         LIMN_CHUNK_RUNS,  LIMN_CHUNK_INDICES, LIMN_CHUNK_SLOTS,
+                                         LIMN_CHUNK_FACES, LIMN_CHUNK_ERRORS};
+enum { KINDS_OF_MESH = sizeof kinds_of_mesh / sizeof *kinds_of_mesh };
 
-static const uint32_t optional_kinds[] = {LIMN_CHUNK_NORMALS,  LIMN_CHUNK_RINGS, LIMN_CHUNK_WEIGHTS,
-                                          LIMN_CHUNK_CREASES,  LIMN_CHUNK_SIDES, LIMN_CHUNK_CORNERS,
-                                          LIMN_CHUNK_STENCILS, LIMN_CHUNK_TERMS};
+static const uint32_t optional_kinds[] = {
+    LIMN_CHUNK_NORMALS,  LIMN_CHUNK_RINGS, LIMN_CHUNK_WEIGHTS,
+    LIMN_CHUNK_CREASES,  LIMN_CHUNK_SIDES, LIMN_CHUNK_CORNERS,
+    LIMN_CHUNK_STENCILS, LIMN_CHUNK_TERMS, LIMN_CHUNK_CHANNEL};
 
 static bool is_among(uint32_t kind, const uint32_t *kinds, size_t count) {
     for (size_t k = 0; k < count; k++) {
@@ -34,7 +37,7 @@ static bool is_known(const limn_file_chunk *chunk) {
     if (limni_is_character_chunk(chunk)) return true;
     if (chunk->mesh == LIMN_FORMAT_NO_MESH)
         return is_among(chunk->kind, kinds_of_file, sizeof kinds_of_file / sizeof(uint32_t));
-    return is_among(chunk->kind, kinds_of_mesh, sizeof kinds_of_mesh / sizeof(uint32_t)) ||
+    return is_among(chunk->kind, kinds_of_mesh, KINDS_OF_MESH) ||
            is_among(chunk->kind, optional_kinds, sizeof optional_kinds / sizeof(uint32_t));
 }
 
@@ -67,6 +70,7 @@ static limn_result validate_header(const limn_pack *pack) {
 static limn_result validate_directory(const limn_pack *pack) {
     const limn_file_header *const header = header_of(pack);
     const uint64_t room = pack->blob_size - sizeof *header;
+    const uint64_t record_count = (uint64_t)header->mesh_count + header->channel_count;
     if (room / sizeof(limn_file_chunk) < header->chunk_count) return LIMN_ERROR_CHUNK;
 
     uint64_t last_key = 0, end = sizeof *header + header->chunk_count * sizeof(limn_file_chunk);
@@ -75,7 +79,7 @@ static limn_result validate_directory(const limn_pack *pack) {
         const uint64_t key = chunk_key(chunk->mesh, chunk->kind);
         if (c > 0 && key <= last_key) return LIMN_ERROR_CHUNK;
         last_key = key;
-        if (chunk->mesh != LIMN_FORMAT_NO_MESH && chunk->mesh >= header->mesh_count)
+        if (chunk->mesh != LIMN_FORMAT_NO_MESH && chunk->mesh >= record_count)
             return LIMN_ERROR_CHUNK;
         if (chunk->offset % LIMN_FORMAT_ALIGNMENT != 0 || chunk->offset > pack->blob_size ||
             chunk->size > pack->blob_size - chunk->offset)
@@ -149,7 +153,7 @@ static limn_result validate_parts(const limn_pack *pack, const limn_file_class *
         if (words[p] >= pack->piece_count) return LIMN_ERROR_PIECE;
         const limn_file_piece *const piece = &pack->pieces[words[p]];
         if (piece->domain != class->domain || piece->kind != limni_piece_kind_of(domain, p) ||
-            piece->table_count != class->table_count)
+            piece->table_count < class->table_count)
             return LIMN_ERROR_PIECE;
         TRY(validate_columns(columns, class->control_count, piece->control_count));
     }
@@ -206,10 +210,7 @@ static bool are_points_right(const limn_file_mesh *record) {
     return record->point_count == base_end || record->point_count >= base_end + base_count(record);
 }
 
-static limn_result validate_mesh_sizes(const limn_pack *pack, uint32_t m) {
-    for (size_t k = 0; k < sizeof kinds_of_mesh / sizeof *kinds_of_mesh; k++) {
-        if (!find_chunk(pack, m, kinds_of_mesh[k])) return LIMN_ERROR_CHUNK;
-    }
+static limn_result validate_sizes(const limn_pack *pack, uint32_t m) {
     if (!chunk_has_size(pack, m, LIMN_CHUNK_MESH, 1, sizeof(limn_file_mesh)))
         return LIMN_ERROR_MESH;
     const limn_file_mesh *const record = chunk_data(pack, m, LIMN_CHUNK_MESH);
@@ -217,13 +218,20 @@ static limn_result validate_mesh_sizes(const limn_pack *pack, uint32_t m) {
         record->hole_count > UINT32_MAX - record->patch_count ||
         !chunk_has_size(pack, m, LIMN_CHUNK_CONTROLS, record->point_count, 3 * sizeof(float)) ||
         !chunk_has_size(pack, m, LIMN_CHUNK_RUNS, record->run_count, sizeof(limn_file_run)) ||
-        !chunk_has_size(pack, m, LIMN_CHUNK_FACES, record->patch_count, sizeof(uint32_t)) ||
-        !chunk_has_size(pack, m, LIMN_CHUNK_INDICES, record->index_count, sizeof(uint32_t)) ||
-        !chunk_has_size(pack, m, LIMN_CHUNK_ERRORS, record->patch_count,
-                        limn_domain_get((limn_domain_kind)record->domain)->corner_count *
-                            sizeof(uint16_t)))
+        !chunk_has_size(pack, m, LIMN_CHUNK_INDICES, record->index_count, sizeof(uint32_t)))
         return LIMN_ERROR_MESH;
     return LIMN_OK;
+}
+
+static limn_result validate_mesh_sizes(const limn_pack *pack, uint32_t m) {
+    TRY(validate_sizes(pack, m));
+    const limn_file_mesh *const record = chunk_data(pack, m, LIMN_CHUNK_MESH);
+    const limn_domain *const domain = limn_domain_get((limn_domain_kind)record->domain);
+    return chunk_has_size(pack, m, LIMN_CHUNK_FACES, record->patch_count, sizeof(uint32_t)) &&
+                   chunk_has_size(pack, m, LIMN_CHUNK_ERRORS, record->patch_count,
+                                  domain->corner_count * sizeof(uint16_t))
+               ? LIMN_OK
+               : LIMN_ERROR_MESH;
 }
 
 /// Runs follow one another without gaps, in patches, in indices and in slots, and use up all of
@@ -397,23 +405,80 @@ static limn_result validate_normals(const limn_pack *pack, const limn_mesh *mesh
     return all_finite(mesh->weights, (size_t)weight_count) ? LIMN_OK : LIMN_ERROR_NORMALS;
 }
 
-static limn_result validate_mesh(const limn_pack *pack, uint32_t m) {
-    TRY(validate_text(pack, m, LIMN_CHUNK_NAME));
-    TRY(validate_mesh_sizes(pack, m));
+static limn_mesh view(const limn_pack *pack, uint32_t m);
+
+static limn_result validate_kinds(const limn_pack *pack, uint32_t m, uint32_t kind_count) {
+    for (uint32_t k = 0; k < kind_count; k++) {
+        if (!find_chunk(pack, m, kinds_of_mesh[k])) return LIMN_ERROR_CHUNK;
+    }
+    return validate_text(pack, m, LIMN_CHUNK_NAME);
+}
+
+/// What meshes and channels have, once their sizes are right.
+static limn_result validate_points_and_patches(const limn_pack *pack, const limn_mesh *mesh,
+                                               uint32_t m) {
     const limn_file_mesh *const record = chunk_data(pack, m, LIMN_CHUNK_MESH);
-    const limn_mesh mesh = limn_pack_mesh(pack, m);
-    if (!all_finite(mesh.controls, (size_t)mesh.point_count * 3) ||
-        !all_finite(mesh.bounds_min, 3) || !all_finite(mesh.bounds_max, 3) ||
-        !all_finite(mesh.origin, 3))
+    if (!all_finite(mesh->controls, (size_t)mesh->point_count * 3) ||
+        !all_finite(mesh->bounds_min, 3) || !all_finite(mesh->bounds_max, 3) ||
+        !all_finite(mesh->origin, 3))
         return LIMN_ERROR_CONTROLS;
-    TRY(validate_runs(pack, &mesh, record->index_count,
+    TRY(validate_runs(pack, mesh, record->index_count,
                       find_chunk(pack, m, LIMN_CHUNK_SLOTS)->size));
-    for (uint32_t r = 0; r < mesh.run_count; r++)
-        TRY(validate_patches(&mesh, &mesh.runs[r]));
+    for (uint32_t r = 0; r < mesh->run_count; r++)
+        TRY(validate_patches(mesh, &mesh->runs[r]));
+    return validate_stencils(pack, mesh, m);
+}
+
+static limn_result validate_mesh(const limn_pack *pack, uint32_t m) {
+    TRY(validate_kinds(pack, m, KINDS_OF_MESH));
+    TRY(validate_mesh_sizes(pack, m));
+    if (find_chunk(pack, m, LIMN_CHUNK_CHANNEL)) return LIMN_ERROR_CHUNK;
+    const limn_mesh mesh = view(pack, m);
+    TRY(validate_points_and_patches(pack, &mesh, m));
     TRY(validate_faces(&mesh));
-    TRY(validate_stencils(pack, &mesh, m));
     TRY(validate_creases(pack, &mesh, m));
     return validate_normals(pack, &mesh, m);
+}
+
+// ---- Validation of channels
+
+/// Whether its patches can be those of the mesh.
+static bool fits_mesh(const limn_file_mesh *channel, const limn_mesh *mesh) {
+    return channel->domain == (uint32_t)mesh->domain->kind &&
+           channel->patch_count == mesh->patch_count &&
+           channel->hole_count == mesh->face_count - mesh->patch_count &&
+           channel->first_channel == 0 && channel->channel_count == 0;
+}
+
+/// Chunk `m` of the file's meshes and channels, which belongs to `mesh`.
+static limn_result validate_channel(const limn_pack *pack, const limn_mesh *mesh, uint32_t m) {
+    TRY(validate_kinds(pack, m, KINDS_OF_MESH - 2));
+    TRY(validate_sizes(pack, m));
+    if (!chunk_has_size(pack, m, LIMN_CHUNK_CHANNEL, 1, sizeof(limn_file_channel)) ||
+        find_chunk(pack, m, LIMN_CHUNK_FACES) || find_chunk(pack, m, LIMN_CHUNK_ERRORS))
+        return LIMN_ERROR_CHUNK;
+    const limn_file_channel *const record = chunk_data(pack, m, LIMN_CHUNK_CHANNEL);
+    if (record->kind > LIMN_CHANNEL_COLOUR || record->component_count < 1 ||
+        record->component_count > 3 || !fits_mesh(chunk_data(pack, m, LIMN_CHUNK_MESH), mesh))
+        return LIMN_ERROR_CHANNEL;
+    const limn_mesh channel = view(pack, m);
+    if (channel.normals || channel.creases || channel.sides || channel.corner_normals)
+        return LIMN_ERROR_CHUNK;
+    return validate_points_and_patches(pack, &channel, m);
+}
+
+/// The channels of meshes follow one another, and there are no others.
+static limn_result validate_channels(const limn_pack *pack) {
+    const uint32_t count = header_of(pack)->channel_count;
+    uint32_t first = 0;
+    for (uint32_t m = 0; m < pack->mesh_count; m++) {
+        const limn_mesh mesh = view(pack, m);
+        if (mesh.first_channel != first || mesh.channel_count > count - first)
+            return LIMN_ERROR_CHANNEL;
+        for (uint32_t c = 0; c < mesh.channel_count; c++)
+            TRY(validate_channel(pack, &mesh, pack->mesh_count + first++));
+    }
+    return first == count ? LIMN_OK : LIMN_ERROR_CHANNEL;
 }
 
 // ---- The public functions
@@ -434,6 +499,7 @@ limn_result limn_pack_open(limn_pack *pack, const void *blob, size_t blob_size) 
     opened.classes = chunk_data(&opened, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_CLASSES);
     for (uint32_t m = 0; m < opened.mesh_count; m++)
         TRY(validate_mesh(&opened, m));
+    TRY(validate_channels(&opened));
     TRY(limni_validate_character(&opened));
     opened.info = chunk_data(&opened, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_INFO);
     opened.kernels = limn_kernels_select(LIMN_ISA_ALL, LIMN_FAMILY_REPRODUCIBLE);
@@ -446,8 +512,8 @@ static uint32_t side_count(const limn_pack *pack, uint32_t mesh_index) {
     return chunk ? (uint32_t)(chunk->size / sizeof(limn_file_side)) : 0;
 }
 
-limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index) {
-    LIMNI_REQUIRE(pack && mesh_index < pack->mesh_count, (limn_mesh){0});
+/// A mesh, or what a channel is without that to which it belongs.
+static limn_mesh view(const limn_pack *pack, uint32_t mesh_index) {
     const limn_file_mesh *const record = chunk_data(pack, mesh_index, LIMN_CHUNK_MESH);
     limn_mesh mesh = {
         .name = chunk_data(pack, mesh_index, LIMN_CHUNK_NAME),
@@ -460,10 +526,12 @@ limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index) {
         .patch_count = record->patch_count,
         .face_count = record->patch_count + record->hole_count,
         .run_count = record->run_count,
-        .faces = chunk_data(pack, mesh_index, LIMN_CHUNK_FACES),
+        .first_channel = record->first_channel,
+        .channel_count = record->channel_count,
+        .faces = optional_data(pack, mesh_index, LIMN_CHUNK_FACES),
         .indices = chunk_data(pack, mesh_index, LIMN_CHUNK_INDICES),
         .slots = chunk_data(pack, mesh_index, LIMN_CHUNK_SLOTS),
-        .errors = chunk_data(pack, mesh_index, LIMN_CHUNK_ERRORS),
+        .errors = optional_data(pack, mesh_index, LIMN_CHUNK_ERRORS),
         .tables = chunk_data(pack, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES),
         .runs = chunk_data(pack, mesh_index, LIMN_CHUNK_RUNS),
         .classes = pack->classes,
@@ -484,4 +552,25 @@ limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index) {
     memcpy(mesh.bounds_max, record->bounds_max, sizeof mesh.bounds_max);
     memcpy(mesh.origin, record->origin, sizeof mesh.origin);
     return mesh;
+}
+
+limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index) {
+    LIMNI_REQUIRE(pack && mesh_index < pack->mesh_count, (limn_mesh){0});
+    return view(pack, mesh_index);
+}
+
+limn_channel limn_mesh_channel(const limn_pack *pack, const limn_mesh *mesh,
+                               uint32_t channel_index) {
+    LIMNI_REQUIRE(pack && mesh && channel_index < mesh->channel_count, (limn_channel){0});
+    const uint32_t m = pack->mesh_count + mesh->first_channel + channel_index;
+    const limn_file_channel *const record = chunk_data(pack, m, LIMN_CHUNK_CHANNEL);
+    limn_channel channel = {
+        .kind = (limn_channel_kind)record->kind,
+        .component_count = record->component_count,
+        .face_varying = record->face_varying,
+        .mesh = view(pack, m),
+    };
+    channel.mesh.faces = mesh->faces;
+    channel.mesh.errors = mesh->errors;
+    return channel;
 }

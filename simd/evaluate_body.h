@@ -92,7 +92,7 @@ typedef struct assembly {
 static inline part position_part(const limni_target *target) {
     enum { FIRST = offsetof(scratch, positions) / sizeof(float) };
     part p = {.planes = {FIRST, FIRST + PLANE, FIRST + 2 * PLANE},
-              .word_count = target->position_format == LIMN_POSITION_UNORM16X4 ? 2 : 3,
+              .word_count = limni_format_words(target->format),
               .dst = target->vertices,
               .stride = target->stride};
     p.size = 4 * p.word_count;
@@ -244,8 +244,7 @@ static LIMNI_NOINLINE void store_patch(const limni_target *target, const parts *
     if (what->control_normals) find_row_normals(target, what, rows);
     if (target->colours) light_rows(target, what->row_count, rows);
     if (what->item) morph_rows(target, what->item, rows);
-    if (target->position_format == LIMN_POSITION_UNORM16X4)
-        pack_unorm16x4(target, what->row_count, &rows->positions);
+    pack_positions(target, what->row_count, &rows->positions);
     if (target->normals) pack_normals(target->normal_format, what->row_count, &rows->along);
     if (target->colours) pack_rgba8(what->row_count, &rows->across);
     if (target->streaming) {
@@ -412,9 +411,8 @@ static inline void sum_pieces(assembly *a, const limni_run *run, const chosen *w
 
 /// Whether all that is wanted are positions as three floats, one behind the other.
 static inline bool is_tight(const limni_target *target) {
-    return !target->normals && !target->colours &&
-           target->position_format == LIMN_POSITION_FLOAT3 && target->stride == 3 * sizeof(float) &&
-           !target->streaming;
+    return !target->normals && !target->colours && target->format == LIMNI_FLOAT3 &&
+           target->stride == 3 * sizeof(float) && !target->streaming;
 }
 
 /// tight   is_tight(), for the compiler: a fifth of the time at the lowest levels

@@ -11,6 +11,7 @@
 #include "sums.h"
 
 #include <float.h>
+#include <string.h>
 
 /// Between low and high; NaN becomes low.
 static inline lanes clamp(lanes a, lanes low, lanes high) {
@@ -28,33 +29,93 @@ static inline lanes quantise_signed(lanes a, float limit) {
     return lanes_add(lanes_multiply(clamped, lanes_splat(limit)), lanes_splat(0x1.8p23f));
 }
 
-/// Positions become two planes: x and y, z and 65535.
+/// A coordinate in its box, from 0 to 65535.
+static inline lanes quantise_in_box(const limni_target *target, const vectors *rows, int axis,
+                                    size_t row) {
+    const lanes from_box =
+        lanes_subtract(lanes_load_any(&rows->axes[axis][row]), lanes_splat(target->box_min[axis]));
+    return quantise_unsigned(lanes_multiply(from_box, lanes_splat(target->box_scale[axis])),
+                             65535.0f);
+}
+
+/// Two planes: x and y, z and 65535.
 static inline void pack_unorm16x4(const limni_target *target, size_t row_count, vectors *rows) {
     const lanes one = lanes_splat(0x1p23f + 65535.0f);
     for (size_t row = 0; row < row_count; row += LANES_WIDTH) {
-        lanes packed[3];
-        for (int axis = 0; axis < 3; axis++) {
-            const lanes from_box = lanes_subtract(lanes_load_any(&rows->axes[axis][row]),
-                                                  lanes_splat(target->box_min[axis]));
-            packed[axis] = quantise_unsigned(
-                lanes_multiply(from_box, lanes_splat(target->box_scale[axis])), 65535.0f);
-        }
-        lanes_store(&rows->axes[0][row], lanes_join(packed[0], packed[1], 16));
-        lanes_store(&rows->axes[1][row], lanes_join(packed[2], one, 16));
+        const lanes x = quantise_in_box(target, rows, 0, row);
+        const lanes y = quantise_in_box(target, rows, 1, row);
+        const lanes z = quantise_in_box(target, rows, 2, row);
+        lanes_store(&rows->axes[0][row], lanes_join(x, y, 16));
+        lanes_store(&rows->axes[1][row], lanes_join(z, one, 16));
     }
 }
 
-/// Red, green and blue become one plane, with 255.
+/// One plane: x and y.
+static inline void pack_unorm16x2(const limni_target *target, size_t row_count, vectors *rows) {
+    for (size_t row = 0; row < row_count; row += LANES_WIDTH) {
+        const lanes x = quantise_in_box(target, rows, 0, row);
+        const lanes y = quantise_in_box(target, rows, 1, row);
+        lanes_store(&rows->axes[0][row], lanes_join(x, y, 16));
+    }
+}
+
+/// One plane: red, green and blue from 0 to 255, and 255.
 static inline void pack_rgba8(size_t row_count, vectors *rows) {
-    const lanes limit = lanes_splat(255.0f), opaque = lanes_splat(0x1p23f + 255.0f);
+    const lanes limit = lanes_splat(255.0f), one = lanes_splat(0x1p23f + 255.0f);
     for (size_t row = 0; row < row_count; row += LANES_WIDTH) {
         lanes packed[3];
         for (int axis = 0; axis < 3; axis++)
             packed[axis] = quantise_unsigned(
                 lanes_multiply(lanes_load_any(&rows->axes[axis][row]), limit), 255.0f);
-        const lanes rg = lanes_join(packed[0], packed[1], 8);
-        const lanes ba = lanes_join(packed[2], opaque, 8);
-        lanes_store(&rows->axes[0][row], lanes_join(rg, ba, 16));
+        const lanes xy = lanes_join(packed[0], packed[1], 8), zw = lanes_join(packed[2], one, 8);
+        lanes_store(&rows->axes[0][row], lanes_join(xy, zw, 16));
+    }
+}
+
+// ---- Halves
+
+static inline uint32_t bits_of(float value) {
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+/// The nearest half, of two the even one; too large numbers become the largest. In whole numbers,
+/// without branches: compilers make vectors of it.
+static inline uint32_t half_of(float value) {
+    enum { LARGEST = 0x477fe000, LEAST_NORMAL = 0x38800000, BIAS = 112 << 23, HALF_ULP = 0xfff };
+    const uint32_t bits = bits_of(value), size = bits & 0x7fffffffu;
+    const uint32_t kept = size < LARGEST ? size : LARGEST;
+    const uint32_t normal = (kept - BIAS + HALF_ULP + (kept >> 13 & 1)) >> 13;
+    // Adding 1/2 rounds to its last bit, which is that of a denormal half.
+    const uint32_t tiny = bits_of((value < 0 ? -value : value) + 0.5f) - bits_of(0.5f);
+    return (bits >> 16 & 0x8000u) | (kept < LEAST_NORMAL ? tiny : normal);
+}
+
+/// One plane: x and y.
+static inline void pack_half2(size_t row_count, vectors *rows) {
+    for (size_t row = 0; row < row_count; row++) {
+        const uint32_t word = half_of(rows->axes[0][row]) | half_of(rows->axes[1][row]) << 16;
+        memcpy(&rows->axes[0][row], &word, sizeof word);
+    }
+}
+
+static inline void pack_positions(const limni_target *target, size_t row_count, vectors *rows) {
+    switch (target->format) {
+    case LIMNI_UNORM16X4:
+        pack_unorm16x4(target, row_count, rows);
+        break;
+    case LIMNI_UNORM16X2:
+        pack_unorm16x2(target, row_count, rows);
+        break;
+    case LIMNI_HALF2:
+        pack_half2(row_count, rows);
+        break;
+    case LIMNI_RGBA8:
+        pack_rgba8(row_count, rows);
+        break;
+    default:
+        break;
     }
 }
 

@@ -123,6 +123,21 @@ static inline void evaluate_normals(const limn_mesh *mesh, uint32_t level) {
     free(normals);
 }
 
+/// Channels of a mesh, into rooms of just their size.
+static inline void evaluate_channels(const limn_pack *pack, const limn_mesh *mesh, uint32_t level) {
+    const limn_plan plan = limn_plan_uniform(mesh, level);
+    for (uint32_t c = 0; c < mesh->channel_count; c++) {
+        const limn_channel channel = limn_mesh_channel(pack, mesh, c);
+        float *const values = malloc((size_t)plan.vertex_count * sizeof(float[2]));
+        refine(&channel.mesh);
+        limn_evaluate_channel(&plan, &channel, channel.mesh.controls, 0, plan.patch_count,
+                              &(limn_value_output){.values = values, .format = LIMN_VALUE_FLOAT2});
+        free(values);
+        for (uint32_t p = 0; p < mesh->patch_count; p++)
+            check_corners(&channel.mesh, p);
+    }
+}
+
 /// With the checksum mended: refused, or evaluated at every level into buffers of just that size.
 /// Returns whether it opened.
 static inline bool check_safe(const blob *file) {
@@ -135,6 +150,7 @@ static inline bool check_safe(const blob *file) {
         for (uint32_t level = 0; level <= LIMN_LEVEL_MAX; level++)
             free(evaluate(&mesh, level));
         if (mesh.normals) evaluate_normals(&mesh, 1);
+        evaluate_channels(&pack, &mesh, 1);
         CHECK(strlen(mesh.name) < file->size);
         for (uint32_t p = 0; p < mesh.patch_count; p++)
             check_corners(&mesh, p);

@@ -983,10 +983,10 @@ static void test_disagreement(void) {
     limni_base base;
     CHECK_EQUAL(limni_mesh_build(&context, &source, &mesh), LIMN_BAKE_OK);
     CHECK_EQUAL(limni_base_begin(&context, &mesh, &rules, &base), LIMN_BAKE_OK);
-    CHECK_EQUAL(limni_patches_build(&context, &base, &rules, &classes, &pieces, &patches),
+    CHECK_EQUAL(limni_patches_build(&context, &base, &rules, NULL, 0, &classes, &pieces, &patches),
                 LIMN_BAKE_OK);
     classes.items[0].prints[1].along[0].positions ^= 1;
-    CHECK_EQUAL(limni_patches_build(&context, &base, &rules, &classes, &pieces, &patches),
+    CHECK_EQUAL(limni_patches_build(&context, &base, &rules, NULL, 0, &classes, &pieces, &patches),
                 LIMN_BAKE_INTERNAL);
     CHECK_CONTAINS(context.error, "disagree on their common edge");
     limni_release_all(&context);

@@ -81,6 +81,19 @@ typedef enum limn_isolate {
     LIMN_ISOLATE_AUTO    ///< for each mesh whose tables would take more than 256 KB; says why
 } limn_isolate;
 
+/// Where a channel is interpolated linearly, as OpenSubdiv has it for face-varying data. A corner is a
+/// value that stays where it is; a seam is where faces do not share their values.
+typedef enum limn_face_varying {
+    LIMN_FACE_VARYING_DEFAULT,       ///< corners-only; texture coordinates with the butterfly: all
+    LIMN_FACE_VARYING_NONE,          ///< nowhere: seams and boundaries are smooth curves
+    LIMN_FACE_VARYING_CORNERS_ONLY,  ///< corners are what a single face has, and where seams end
+                                     ///< in one another
+    LIMN_FACE_VARYING_CORNERS_PLUS1, ///< and where three values or more meet
+    LIMN_FACE_VARYING_CORNERS_PLUS2, ///< and the ends of seams, and both values where one is a corner
+    LIMN_FACE_VARYING_BOUNDARIES,    ///< seams and boundaries are linear
+    LIMN_FACE_VARYING_ALL            ///< everywhere
+} limn_face_varying;
+
 /// What may be mended, as bits. Done in this order.
 typedef enum limn_repair {
     LIMN_REPAIR_WELD = 1 << 0, ///< merge control points whose positions are equal, and values of
@@ -115,13 +128,25 @@ typedef struct limn_bake_desc {
     limn_creasing creasing;
     limn_normals normals;
     limn_isolate isolate;
-    bool images;     ///< store the images of materials, as they are, and not only their names
-    uint32_t repair; ///< LIMN_REPAIR_… bits; 0: refuse bad faces
+    limn_face_varying face_varying; ///< of all channels; without a scheme they are linear
+    bool no_channels;               ///< leaves out what meshes have
+    bool images;                    ///< store the images of materials, not only their names
+    uint32_t repair;                ///< LIMN_REPAIR_… bits; 0: refuse bad faces
     limn_non_manifold non_manifold;
     limn_bake_note_fn *note;
     limn_bake_progress_fn *progress;
     void *user; ///< passed to the callbacks
 } limn_bake_desc;
+
+/// Values that belong to the corners of faces.
+typedef struct limn_bake_channel {
+    const char *name; ///< such as "uv"; NULL: "channel"
+    limn_channel_kind kind;
+    uint32_t component_count; ///< 1 to 3
+    const float *values;      ///< [value_count][component_count]
+    uint32_t value_count;
+    const uint32_t *corner_values; ///< one for each of the face_indices
+} limn_bake_channel;
 
 /// A polygon mesh in memory, with what OpenSubdiv calls tags. Zero stands for no tags.
 ///
@@ -141,6 +166,8 @@ typedef struct limn_bake_mesh {
     const float *vertex_sharpness;  ///< [sharp_vertex_count]
     const uint32_t *holes; ///< [hole_count] faces that shape their neighbours but are not drawn
     uint32_t crease_count, sharp_vertex_count, hole_count;
+    const limn_bake_channel *channels; ///< [channel_count]
+    uint32_t channel_count;
     limn_boundary boundary; ///< asked for, unless limn_bake_desc says otherwise
     limn_creasing creasing; ///< likewise
 } limn_bake_mesh;

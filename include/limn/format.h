@@ -22,7 +22,7 @@ extern "C" {
 #endif
 
 #define LIMN_FORMAT_MAGIC "LIMN"
-#define LIMN_FORMAT_VERSION 5u
+#define LIMN_FORMAT_VERSION 6u
 
 /// Alignment of the blob in memory and of every chunk in the file, in bytes.
 #define LIMN_FORMAT_ALIGNMENT 64u
@@ -96,6 +96,8 @@ extern "C" {
 #define LIMN_CHUNK_SIDES LIMN_FORMAT_KIND('S', 'I', 'D', 'E')
 #define LIMN_CHUNK_CORNERS LIMN_FORMAT_KIND('C', 'O', 'R', 'N')
 
+/// Of a channel: limn_file_channel.
+#define LIMN_CHUNK_CHANNEL LIMN_FORMAT_KIND('C', 'H', 'N', 'L')
 /// Characters: what moves and colours meshes. None of these chunks is required. In the file: texts,
 /// zero-terminated, one behind the other; limn_file_joint[], limn_file_clip[], limn_file_track[],
 /// float[]; limn_file_material[], limn_file_image[], and the bytes of images.
@@ -129,7 +131,8 @@ typedef struct limn_file_header {
     uint32_t chunk_count; ///< entries of the directory that follows the header
     uint32_t mesh_count;
     uint32_t class_count;
-    uint32_t reserved[7]; ///< zero
+    uint32_t channel_count; ///< of all meshes; their chunks are those of meshes from mesh_count on
+    uint32_t reserved[6];   ///< zero
 } limn_file_header;
 
 typedef struct limn_file_chunk {
@@ -249,7 +252,19 @@ typedef struct limn_file_mesh {
     /// 0: the base vertices, whose faces the patches draw, are the control points. Otherwise the mesh
     /// has been divided once before, and they are so many points behind these.
     uint32_t divided_count;
+    uint32_t first_channel; ///< of the file's: the channels of meshes follow one another
+    uint32_t channel_count;
 } limn_file_mesh;
+
+/// A channel is a mesh whose points are values, without faces, errors and normals of its own. Its
+/// patches are those of the mesh that it belongs to, in the same order and in the same frame: row r of
+/// both is the same vertex.
+typedef struct limn_file_channel {
+    uint32_t kind;            ///< limn_channel_kind
+    uint32_t component_count; ///< 1 to 3; others are 0
+    uint32_t face_varying;    ///< how it was interpolated, for information: see bake.h
+    uint32_t reserved;        ///< zero
+} limn_file_channel;
 
 /// Consecutive patches of one class. Patch p of the run has its control indices, by slot, at
 /// indices[first_index + p * K], and at first_slot + p * K * (slot width) its slots, one or two
@@ -343,9 +358,11 @@ LIMN_STATIC_ASSERT(sizeof(limn_file_normal) == 12, "normal");
 LIMN_STATIC_ASSERT(sizeof(limn_file_side) == 16, "side");
 LIMN_STATIC_ASSERT(sizeof(limn_file_piece) == 16, "piece");
 LIMN_STATIC_ASSERT(sizeof(limn_file_term) == 8, "term");
-LIMN_STATIC_ASSERT(sizeof(limn_file_mesh) == 72, "mesh");
+LIMN_STATIC_ASSERT(sizeof(limn_file_mesh) == 80, "mesh");
+LIMN_STATIC_ASSERT(sizeof(limn_file_channel) == 16, "channel");
 LIMN_STATIC_ASSERT(offsetof(limn_file_mesh, bounds_min) == 24, "mesh.bounds_min");
 LIMN_STATIC_ASSERT(offsetof(limn_file_mesh, divided_count) == 68, "mesh.divided_count");
+LIMN_STATIC_ASSERT(offsetof(limn_file_mesh, channel_count) == 76, "mesh.channel_count");
 LIMN_STATIC_ASSERT(sizeof(limn_file_run) == 32, "run");
 LIMN_STATIC_ASSERT(offsetof(limn_file_run, first_index) == 16, "run.first_index");
 LIMN_STATIC_ASSERT(sizeof(limn_file_joint) == 96, "joint");

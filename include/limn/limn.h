@@ -74,6 +74,7 @@ uint32_t limn_version(void);
       "a piece of a class is of an unknown kind, or lies outside the tables or its class")         \
     X(LIMN_ERROR_STENCIL, "the stencils of points are out of range, not finite or incomplete")     \
     X(LIMN_ERROR_NORMALS, "the data for normals are out of range, not finite or incomplete")       \
+    X(LIMN_ERROR_CHANNEL, "a channel does not fit its mesh, or is of an unknown kind")             \
     X(LIMN_ERROR_SKIN, "a skin has no joints, or not 1 to 8 influences for each point")            \
     X(LIMN_ERROR_JOINT, "an influence on a point names a joint that does not exist")               \
     X(LIMN_ERROR_WEIGHT, "the weight of an influence is negative or not finite")                   \
@@ -290,6 +291,7 @@ typedef struct limn_mesh {
     const struct limn_file_side *sides;     ///< [normal_count - base_count]
     const uint32_t *corner_normals; ///< [patch_count][corner_count] the normals of the corners;
                                     ///< NULL: those of the base vertices
+    uint32_t first_channel, channel_count; ///< see limn_mesh_channel()
     uint32_t normal_count; ///< of limn_mesh_control_normals(): one per base vertex, and more on
                            ///< creases; 0 without normals
     const uint32_t *ring;
@@ -308,6 +310,21 @@ limn_result limn_pack_open(limn_pack *pack, const void *blob, size_t blob_size);
 
 /// The view of mesh `mesh_index` < pack->mesh_count. Does not allocate; never fails; any thread.
 limn_mesh limn_pack_mesh(const limn_pack *pack, uint32_t mesh_index);
+
+/// A channel of a mesh: texture coordinates or colours. `mesh` has values in the place of control
+/// points, those of a vertex on a seam as many as it has, and the patches of the mesh in the same
+/// order and frame: patch p draws the same face, and row r is the same vertex. Plain data.
+typedef struct limn_channel {
+    limn_channel_kind kind;
+    uint32_t component_count; ///< 1 to 3; further components are 0
+    uint32_t face_varying;    ///< how it was interpolated, for information: see bake.h
+    limn_mesh mesh;           ///< its name is that of the channel
+} limn_channel;
+
+/// The view of channel `channel_index` < mesh->channel_count of a mesh of the pack. Does not
+/// allocate; never fails; any thread.
+limn_channel limn_mesh_channel(const limn_pack *pack, const limn_mesh *mesh,
+                               uint32_t channel_index);
 
 /// The base face that a patch draws.
 typedef struct limn_patch_face {
@@ -730,6 +747,38 @@ void limn_mesh_control_normals(const limn_mesh *mesh, const float *controls, flo
 /// output      room for plan->vertex_count vertices, of which only those of the range are written
 void limn_evaluate(const limn_plan *plan, const float *controls, uint32_t begin, uint32_t end,
                    const limn_output *output);
+
+/// How a value of a channel is written. Integers are rounded to the nearest, and halves, too.
+typedef enum limn_value_format {
+    LIMN_VALUE_FLOAT3,    ///< 12 bytes
+    LIMN_VALUE_FLOAT2,    ///< 8 bytes: the first two components
+    LIMN_VALUE_HALF2,     ///< 4 bytes: two IEEE 754 binary16, at most 65504 from 0
+    LIMN_VALUE_UNORM16X2, ///< 4 bytes: each is 65535 (value - min) / (max - min), clamped to the box
+    LIMN_VALUE_RGBA8      ///< 4 bytes: three components times 255, clamped, and 255
+} limn_value_format;
+
+/// Where the values of a channel go: a stream of their own. Each byte is written once, going
+/// forward, and none is read.
+typedef struct limn_value_output {
+    void *values;    ///< of vertex 0 of the plan, aligned to 4 bytes
+    uint32_t stride; ///< bytes from value to value, a multiple of 4; 0 means tightly packed
+    limn_value_format format;
+    const float
+        *box;       ///< [2][3], min and max; NULL: the bounds of the values in the file. On an axis
+                    ///< without extent all is 0
+    bool streaming; ///< see limn_output
+} limn_value_output;
+
+/// Evaluates a channel for patches [begin, end) of a plan of its mesh: as limn_evaluate() does
+/// positions, with the levels and weights of the plan, so that values stay with their vertices; and
+/// with the same promises, for vertices whose values the faces share.
+///
+/// plan     of the mesh that the channel belongs to, whatever made it
+/// values   [channel->mesh.point_count][3]: channel->mesh.controls, or others, for which
+///          limn_mesh_refine(&channel->mesh, …) fills in what follows from the first
+/// output   room for plan->vertex_count values, of which only those of the range are written
+void limn_evaluate_channel(const limn_plan *plan, const limn_channel *channel, const float *values,
+                           uint32_t begin, uint32_t end, const limn_value_output *output);
 
 #ifdef __cplusplus
 }

@@ -81,6 +81,20 @@ static void draw(const limn_mesh *mesh) {
     free(points);
 }
 
+static void evaluate_channels(const limn_pack *pack, const limn_mesh *mesh) {
+    const limn_plan plan = limn_plan_uniform(mesh, 2);
+    for (uint32_t c = 0; c < mesh->channel_count; c++) {
+        const limn_channel channel = limn_mesh_channel(pack, mesh, c);
+        FUZZ_REQUIRE(channel.mesh.name && strlen(channel.mesh.name) < SIZE_MAX);
+        if (plan.vertex_count > VERTICES_MAX) continue;
+        void *const values = allocate((size_t)plan.vertex_count * sizeof(uint32_t));
+        limn_evaluate_channel(
+            &plan, &channel, channel.mesh.controls, 0, plan.patch_count,
+            &(limn_value_output){.values = values, .format = LIMN_VALUE_UNORM16X2});
+        free(values);
+    }
+}
+
 static void visit(const limn_mesh *mesh) {
     for (uint32_t p = 0; p < mesh->patch_count; p++) {
         uint32_t corners[LIMN_CORNER_MAX];
@@ -105,6 +119,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
         for (uint32_t m = 0; m < pack.mesh_count; m++) {
             const limn_mesh mesh = limn_pack_mesh(&pack, m);
             visit(&mesh);
+            evaluate_channels(&pack, &mesh);
         }
         use_character(&pack);
     }
