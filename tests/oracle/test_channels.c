@@ -111,7 +111,7 @@ static void write_grid(const char *path) {
 }
 
 static void test_random(void) {
-    for (uint32_t round = 0; round < 3; round++) {
+    for (uint32_t round = 0; round < 2; round++) {
         write_grid("charts.obj");
         check_modes("charts.obj", LIMN_SCHEME_CATMARK);
         check_modes("charts.obj", LIMN_SCHEME_LOOP);
