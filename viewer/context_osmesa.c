@@ -44,8 +44,7 @@ view_context *view_context_create(void) {
     return context;
 }
 
-view_gl_fn view_context_function(const view_context *context, const char *name) {
-    (void)context;
+view_gl_fn view_context_function(const char *name) {
     return (view_gl_fn)OSMesaGetProcAddress(name);
 }
 

@@ -6,7 +6,6 @@
 #ifndef VIEW_GL_H
 #define VIEW_GL_H
 
-#include "context.h"
 #include <GL/glcorearb.h>
 #include <stdbool.h>
 
@@ -22,6 +21,7 @@
     X(BUFFERDATA, BufferData)                                                                      \
     X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus)                                              \
     X(CLEAR, Clear)                                                                                \
+    X(CLIENTWAITSYNC, ClientWaitSync)                                                              \
     X(COMPILESHADER, CompileShader)                                                                \
     X(CREATEPROGRAM, CreateProgram)                                                                \
     X(CREATESHADER, CreateShader)                                                                  \
@@ -30,6 +30,7 @@
     X(DELETEPROGRAM, DeleteProgram)                                                                \
     X(DELETERENDERBUFFERS, DeleteRenderbuffers)                                                    \
     X(DELETESHADER, DeleteShader)                                                                  \
+    X(DELETESYNC, DeleteSync)                                                                      \
     X(DELETEVERTEXARRAYS, DeleteVertexArrays)                                                      \
     X(DEPTHFUNC, DepthFunc)                                                                        \
     X(DEPTHMASK, DepthMask)                                                                        \
@@ -38,6 +39,7 @@
     X(DRAWELEMENTS, DrawElements)                                                                  \
     X(ENABLE, Enable)                                                                              \
     X(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray)                                            \
+    X(FENCESYNC, FenceSync)                                                                        \
     X(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer)                                            \
     X(GENBUFFERS, GenBuffers)                                                                      \
     X(GENFRAMEBUFFERS, GenFramebuffers)                                                            \
@@ -49,8 +51,10 @@
     X(GETPROGRAMIV, GetProgramiv)                                                                  \
     X(GETSHADERINFOLOG, GetShaderInfoLog)                                                          \
     X(GETSHADERIV, GetShaderiv)                                                                    \
+    X(GETSTRINGI, GetStringi)                                                                      \
     X(GETUNIFORMLOCATION, GetUniformLocation)                                                      \
     X(LINKPROGRAM, LinkProgram)                                                                    \
+    X(MAPBUFFERRANGE, MapBufferRange)                                                              \
     X(MULTIDRAWELEMENTSBASEVERTEX, MultiDrawElementsBaseVertex)                                    \
     X(PIXELSTOREI, PixelStorei)                                                                    \
     X(READPIXELS, ReadPixels)                                                                      \
@@ -60,18 +64,34 @@
     X(UNIFORM2F, Uniform2f)                                                                        \
     X(UNIFORM4F, Uniform4f)                                                                        \
     X(UNIFORMMATRIX4FV, UniformMatrix4fv)                                                          \
+    X(UNMAPBUFFER, UnmapBuffer)                                                                    \
     X(USEPROGRAM, UseProgram)                                                                      \
     X(VERTEXATTRIBPOINTER, VertexAttribPointer)                                                    \
     X(VIEWPORT, Viewport)
 
+/// Functions that OpenGL 3.3 does not have, each from a version (44 is 4.4) or by an extension.
+#define VIEW_GL_NEWER_FUNCTIONS(X)                                                                 \
+    X(BUFFERSTORAGE, BufferStorage, 44, "GL_ARB_buffer_storage")                                   \
+    X(MULTIDRAWELEMENTSINDIRECT, MultiDrawElementsIndirect, 43, "GL_ARB_multi_draw_indirect")
+
 typedef struct view_gl {
 #define VIEW_GL_MEMBER(type, name) PFNGL##type##PROC name;
+#define VIEW_GL_NEWER_MEMBER(type, name, version, extension) PFNGL##type##PROC name;
     VIEW_GL_FUNCTIONS(VIEW_GL_MEMBER)
+    // NULL where the driver does not have them:
+    VIEW_GL_NEWER_FUNCTIONS(VIEW_GL_NEWER_MEMBER)
 #undef VIEW_GL_MEMBER
+#undef VIEW_GL_NEWER_MEMBER
 } view_gl;
 
+/// Any OpenGL function; the caller casts it to its type.
+typedef void (*view_gl_fn)(void);
+
+/// The OpenGL function `name` ("glClear") of the current context, or NULL if there is none.
+typedef view_gl_fn view_gl_find_fn(const char *name);
+
 /// Loads all functions of the current context; reports the first one that is missing.
-bool view_gl_load(view_gl *gl, const view_context *context);
+bool view_gl_load(view_gl *gl, view_gl_find_fn *find);
 
 /// Reports the oldest OpenGL error since the last call, with what was being done; true if none.
 bool view_gl_check(const view_gl *gl, const char *action);

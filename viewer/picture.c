@@ -4,6 +4,7 @@
 #include "context.h"
 #include "renderer.h"
 #include "target.h"
+#include <string.h>
 
 /// Lines keep their proportion to the picture, but stay visible in a small one.
 static float line_scale(const view_picture *picture) {
@@ -11,6 +12,19 @@ static float line_scale(const view_picture *picture) {
     const uint32_t width = picture->width, height = picture->height;
     const float scale = (float)(width < height ? width : height) / usual;
     return scale > 0.7f ? scale : 0.7f;
+}
+
+static bool upload_vertices(view_renderer *renderer, const view_scene *scene) {
+    uint64_t vertex_count = 0;
+    for (uint32_t i = 0; i < scene->surface_count; i++)
+        vertex_count += scene->surfaces[i].plan.vertex_count;
+    view_vertex *const vertices = view_renderer_map(renderer, vertex_count);
+    for (uint32_t i = 0; i < scene->surface_count && vertices; i++) {
+        const view_surface *const surface = &scene->surfaces[i];
+        memcpy(vertices + surface->first_vertex, surface->vertices,
+               (size_t)surface->plan.vertex_count * sizeof *vertices);
+    }
+    return vertices;
 }
 
 static bool draw(const view_gl *gl, const view_scene *scene, const view_picture *picture,
@@ -33,15 +47,15 @@ static bool draw(const view_gl *gl, const view_scene *scene, const view_picture 
     }
 
     view_renderer *const renderer = view_renderer_create(gl, scene);
-    const bool drawn = renderer && view_renderer_draw(renderer, &frame);
+    const bool drawn =
+        renderer && upload_vertices(renderer, scene) && view_renderer_draw(renderer, &frame);
     view_renderer_destroy(renderer);
     return drawn;
 }
 
-static bool draw_and_write(const view_context *context, const view_scene *scene,
-                           const view_picture *picture) {
+static bool draw_and_write(const view_scene *scene, const view_picture *picture) {
     view_gl gl;
-    if (!view_gl_load(&gl, context)) return false;
+    if (!view_gl_load(&gl, view_context_function)) return false;
     view_target target;
     view_image image = {0};
     const bool done = view_target_create(&target, &gl, picture->width, picture->height) &&
@@ -56,9 +70,10 @@ bool view_picture_make(const view_picture *picture) {
     view_scene scene;
     bool done = view_scene_open(&scene, picture->limn_path, &picture->frame, &picture->light,
                                 picture->mesh_index);
+    done = done && view_scene_evaluate(&scene);
     if (done) {
         view_context *const context = view_context_create();
-        done = context && draw_and_write(context, &scene, picture);
+        done = context && draw_and_write(&scene, picture);
         view_context_destroy(context);
     }
     view_scene_close(&scene);

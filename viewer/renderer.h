@@ -15,18 +15,25 @@ typedef struct view_frame {
     uint32_t width, height; ///< of the framebuffer, which must encode sRGB
     float pixel_scale;      ///< framebuffer pixels per pixel of line width
     bool level_colours;     ///< instead of clay
+    bool normal_colours;    ///< normals as colours, and no light
     bool vertex_light;      ///< that of the vertices, instead of the shader's own
     bool flat_shading;      ///< a normal for each triangle
     bool wireframe;
     bool control_mesh;
+    bool unsewn; ///< patches are not sewn to coarser neighbours: cracks show
 } view_frame;
 
-/// Uploads a scene, which must outlive the renderer, as must `gl`. Reports why and returns NULL on
-/// failure.
+/// Uploads what stays the same in all frames of a scene, which must outlive the renderer, as must
+/// `gl`. Reports why and returns NULL on failure.
 view_renderer *view_renderer_create(const view_gl *gl, const view_scene *scene);
 
-/// Reports why and returns false on failure.
-bool view_renderer_draw(const view_renderer *renderer, const view_frame *frame);
+/// Memory on the GPU for the vertices of the next frame, to be written by any thread, and not read:
+/// of all surfaces, each from its `first_vertex` on. Reports why and returns NULL on failure.
+view_vertex *view_renderer_map(view_renderer *renderer, uint64_t vertex_count);
+
+/// Draws the plans of all surfaces with the vertices that were written. Reports why and returns
+/// false on failure.
+bool view_renderer_draw(view_renderer *renderer, const view_frame *frame);
 
 /// Takes NULL as well. The context must still be current.
 void view_renderer_destroy(view_renderer *renderer);

@@ -21,10 +21,10 @@ static uint8_t border_steps(const limn_domain *domain, uint32_t edge, limn_row r
     return (uint8_t)((dx * (row.j - from.j) - dy * (row.i - from.i)) / LIMN_GRID_SIZE);
 }
 
-/// What vertices have besides positions and normals.
-static void describe_vertices(const limn_plan *plan, view_vertex *vertices) {
+void view_vertices_describe(const limn_plan *plan, uint32_t begin, uint32_t end,
+                            view_vertex *vertices) {
     const limn_domain *const domain = plan->mesh->domain;
-    for (uint32_t p = 0; p < plan->patch_count; p++) {
+    for (uint32_t p = begin; p < end; p++) {
         const limn_plan_patch *const patch = &plan->patches[p];
         const float level = patch->level > 0 ? (float)(patch->level - 1) + patch->morph : 0;
         for (uint32_t row = 0; row < domain->row_counts[patch->level]; row++) {
@@ -102,10 +102,19 @@ static bool evaluate_surface(const view_scene *scene, view_surface *surface) {
     surface->vertices = calloc((size_t)plan->vertex_count + 1, sizeof *surface->vertices);
     if (!surface->vertices) return view_fail("out of memory for mesh '%s'", mesh->name);
 
-    describe_vertices(plan, surface->vertices);
-    if (!evaluate_vertices(scene, plan, templates->indices, surface->vertices) ||
-        !view_control_mesh_find(&surface->control_mesh, mesh)) {
-        return view_fail("out of memory for mesh '%s'", mesh->name);
+    view_vertices_describe(plan, 0, plan->patch_count, surface->vertices);
+    return evaluate_vertices(scene, plan, templates->indices, surface->vertices) ||
+           view_fail("out of memory for mesh '%s'", mesh->name);
+}
+
+bool view_scene_evaluate(view_scene *scene) {
+    uint64_t vertex_count = 0;
+    for (uint32_t i = 0; i < scene->surface_count; i++) {
+        view_surface *const surface = &scene->surfaces[i];
+        if (!evaluate_surface(scene, surface)) return false;
+        surface->first_vertex = (uint32_t)vertex_count;
+        vertex_count += surface->plan.vertex_count;
+        if (has_too_many(&surface->mesh, vertex_count)) return false;
     }
     return true;
 }
@@ -121,8 +130,8 @@ static bool list_templates(const limn_domain *domain, view_templates *templates)
     return true;
 }
 
-static bool evaluate_meshes(view_scene *scene, limni_frame_options options, const view_light *light,
-                            uint32_t first, uint32_t count) {
+static bool open_meshes(view_scene *scene, limni_frame_options options, const view_light *light,
+                        uint32_t first, uint32_t count) {
     if (!limni_moment_make(&scene->moment, &scene->pack, first, count, &options))
         return view_fail("%s", options.error);
     const limni_bounds bounds = limni_moment_bounds(&scene->moment);
@@ -137,9 +146,9 @@ static bool evaluate_meshes(view_scene *scene, limni_frame_options options, cons
         scene->surface_count = i + 1;
         scene->surfaces[i].mesh = scene->moment.meshes[i].mesh;
         const limn_domain *const domain = scene->surfaces[i].mesh.domain;
-        if (!list_templates(domain, &scene->templates[domain->kind]) ||
-            !evaluate_surface(scene, &scene->surfaces[i]))
-            return false;
+        if (!list_templates(domain, &scene->templates[domain->kind])) return false;
+        if (!view_control_mesh_find(&scene->surfaces[i].control_mesh, &scene->surfaces[i].mesh))
+            return view_fail("out of memory for mesh '%s'", scene->surfaces[i].mesh.name);
     }
     return true;
 }
@@ -154,13 +163,12 @@ bool view_scene_open(view_scene *scene, const char *path, const limni_frame_opti
     if (result != LIMN_OK) return view_fail("%s: %s", path, limn_result_text(result));
 
     const uint32_t mesh_count = scene->pack.mesh_count;
-    if (mesh_index == VIEW_ALL_MESHES)
-        return evaluate_meshes(scene, *options, light, 0, mesh_count);
+    if (mesh_index == VIEW_ALL_MESHES) return open_meshes(scene, *options, light, 0, mesh_count);
     if ((unsigned long)mesh_index >= mesh_count) {
         return view_fail("%s: there is no mesh %ld; the file has %u, counted from 0", path,
                          mesh_index, mesh_count);
     }
-    return evaluate_meshes(scene, *options, light, (uint32_t)mesh_index, 1);
+    return open_meshes(scene, *options, light, (uint32_t)mesh_index, 1);
 }
 
 void view_scene_close(view_scene *scene) {

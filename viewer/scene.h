@@ -32,7 +32,9 @@ typedef struct view_surface {
     limn_mesh mesh;
     void *plan_memory;
     limn_plan plan;        ///< of `mesh` above
-    view_vertex *vertices; ///< [plan.vertex_count]
+    uint32_t first_vertex; ///< among those of all surfaces
+    view_vertex *vertices; ///< [plan.vertex_count]; NULL where they go to the GPU at once
+    bool faceted;          ///< vertices have no normals
     view_control_mesh control_mesh;
 } view_surface;
 
@@ -50,12 +52,20 @@ typedef struct view_scene {
 
 enum { VIEW_ALL_MESHES = -1 };
 
-/// Opens a file, and plans and evaluates a frame of one of its meshes, or VIEW_ALL_MESHES. Reports
-/// why and returns false on failure. The scene must stay where it is, and be closed in either case.
+/// Opens a file with one of its meshes, or VIEW_ALL_MESHES, in the moment that the options say.
+/// Reports why and returns false on failure. The scene must stay where it is, and be closed in
+/// either case.
 bool view_scene_open(view_scene *scene, const char *path, const limni_frame_options *options,
                      const view_light *light, long mesh_index);
 
 void view_scene_close(view_scene *scene);
+
+/// Plans and evaluates a frame of all surfaces in memory. Reports why and returns false on failure.
+bool view_scene_evaluate(view_scene *scene);
+
+/// Writes what vertices of patches [begin, end) of a plan have besides positions and normals.
+void view_vertices_describe(const limn_plan *plan, uint32_t begin, uint32_t end,
+                            view_vertex *vertices);
 
 /// A camera that sees all surfaces at their finest level, whatever level the scene has, so that
 /// pictures of different levels lie on top of each other; and the control points, if asked to.
