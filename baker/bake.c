@@ -2,6 +2,7 @@
 /* The public face of the baker: each mesh goes through the steps as it is added. */
 #include "limn/bake.h"
 
+#include "check_options.h"
 #include "choose_isolation.h"
 #include "edge_errors.h"
 #include "output_file.h"
@@ -29,6 +30,8 @@ limn_baker *limn_baker_create(const limn_bake_desc *desc) {
     limn_baker *const baker = calloc(1, sizeof *baker);
     if (!baker) return NULL;
     if (desc) baker->context.desc = *desc;
+    baker->failed = limni_check_options(&baker->context);
+    if (baker->failed != LIMN_BAKE_OK) return baker;
     baker->rules = (limni_rules){.scheme = baker->context.desc.scheme,
                                  .weights = baker->context.desc.weights,
                                  .tension = limni_fixed_from(baker->context.desc.tension),
@@ -72,8 +75,6 @@ static limni_rules rules_for(const limni_rules *options, const limni_mesh *mesh)
     if (rules.creasing == LIMN_CREASING_DEFAULT) rules.creasing = LIMN_CREASING_UNIFORM;
     if (rules.scheme == LIMN_SCHEME_BUTTERFLY && rules.isolate == LIMN_ISOLATE_AUTO)
         rules.isolate = LIMN_ISOLATE_NEVER; // would divide the mesh, which is for the user to say
-    if (rules.scheme == LIMN_SCHEME_NONE)   // evenly divided, by these rules alone
-        rules.creases = LIMN_CREASES_OPENSUBDIV;
     if (!limni_scheme_has_creases(rules.scheme)) {
         rules.creasing = LIMN_CREASING_UNIFORM;
         if (rules.boundary == LIMN_BOUNDARY_EDGE_AND_CORNER)
@@ -110,21 +111,9 @@ static void note_rules(limni_context *context, const limni_rules *rules, bool is
 /// What the rules make of the mesh before it is classified.
 static limn_bake_status apply_rules(limni_context *context, const limni_rules *rules,
                                     limni_mesh *mesh) {
-    const bool butterfly = rules->scheme == LIMN_SCHEME_BUTTERFLY;
-    if (rules->creases == LIMN_CREASES_LOMONT &&
-        (rules->scheme == LIMN_SCHEME_CATMARK || butterfly))
-        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                          "%s: Lomont's creases are those of Loop's scheme alone", place_of(mesh));
-    if (butterfly && mesh->origins)
+    if (rules->scheme == LIMN_SCHEME_BUTTERFLY && mesh->origins)
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
                           "%s: not a manifold, and sheets of the butterfly would not meet",
-                          place_of(mesh));
-    const float tension = context->desc.tension;
-    if (!(tension >= -0.25f && tension <= 0.25f))
-        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "the tension is not between -1/4 and 1/4");
-    if (rules->creases == LIMN_CREASES_LOMONT && rules->creasing == LIMN_CREASING_CHAIKIN)
-        return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                          "%s: Chaikin's creasing goes with OpenSubdiv's creases, not Lomont's",
                           place_of(mesh));
     if (rules->boundary == LIMN_BOUNDARY_NONE) limni_mesh_open_boundary(mesh);
     if (mesh->hole_count == mesh->face_count)

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "command.h"
 #include "output_file.h"
-#include "scheme.h"
 #include "source.h"
 #include "write_c_array.h"
 
@@ -243,27 +242,6 @@ static int parse_option(int option, arguments *given) {
     }
 }
 
-/// Refuses options that do nothing with the scheme.
-static int check_scheme(const limn_bake_desc *desc) {
-    const bool loop = desc->scheme == LIMN_SCHEME_LOOP;
-    const bool creased = limni_scheme_has_creases(desc->scheme);
-    if (desc->weights != LIMN_WEIGHTS_LOOP && !loop)
-        return limni_usage_error("bake", "--weights are those of --scheme loop");
-    if (desc->tension != 0 && desc->scheme != LIMN_SCHEME_BUTTERFLY)
-        return limni_usage_error("bake", "--tension is that of --scheme butterfly");
-    if (desc->creases == LIMN_CREASES_LOMONT && !loop)
-        return limni_usage_error("bake", "--creases lomont goes with --scheme loop");
-    if (desc->creasing != LIMN_CREASING_DEFAULT && !creased)
-        return limni_usage_error("bake", "--creasing goes with --scheme loop or catmark");
-    if (desc->boundary == LIMN_BOUNDARY_EDGE_AND_CORNER && !creased)
-        return limni_usage_error("bake",
-                                 "--boundary edge-and-corner goes with --scheme loop or catmark");
-    if (desc->scheme == LIMN_SCHEME_NONE && desc->face_varying != LIMN_FACE_VARYING_DEFAULT &&
-        desc->face_varying != LIMN_FACE_VARYING_ALL)
-        return limni_usage_error("bake", "with --scheme none, --face-varying is all");
-    return LIMNI_EXIT_OK;
-}
-
 static int parse(int argc, char **argv, arguments *given) {
     for (int option; (option = getopt_long(argc, argv, "o:qh", options, NULL)) != -1;) {
         const int status = parse_option(option, given);
@@ -272,7 +250,7 @@ static int parse(int argc, char **argv, arguments *given) {
     if (optind == argc) return limni_usage_error("bake", "there is no input");
     if (!given->output || !given->output[0])
         return limni_usage_error("bake", "there is no output: -o OUT.limn");
-    return check_scheme(&given->desc);
+    return LIMNI_EXIT_OK;
 }
 
 /// A mesh's name in the place of the output is a slip that would cost the mesh.
@@ -345,7 +323,9 @@ int limni_command_bake(int argc, char **argv) {
 
     limn_baker *const baker = limn_baker_create(&given.desc);
     if (!baker) return limni_failure("out of memory");
-    const int baked = bake(baker, &given, argv + optind);
+    const char *const refused = limn_baker_error(baker); // options
+    const int baked =
+        *refused ? limni_usage_error("bake", "%s", refused) : bake(baker, &given, argv + optind);
     limn_baker_destroy(baker);
     return baked;
 }

@@ -195,7 +195,7 @@ works bake tagged/sail.obj -o lomont.limn --creases lomont
 works info lomont.limn
 says stdout 'boundary=edge-only creases=lomont normals=none'
 cmp -s tagged.limn lomont.limn && fail "--creases lomont does nothing"
-refuses 1 "Chaikin's creasing goes with" bake tagged/sail.obj -o tagged.limn --creases lomont --creasing chaikin
+refuses 2 '--creasing chaikin goes with' bake tagged/sail.obj -o tagged.limn --creases lomont --creasing chaikin
 refuses 2 "no crease rules 'hoppe'" bake tagged/sail.obj -o tagged.limn --creases hoppe
 refuses 2 "no creasing method 'hard'" bake tagged/sail.obj -o tagged.limn --creasing hard
 tagged 't hole 3/0/0 0 5 87'

@@ -961,6 +961,31 @@ static void test_boundary_of_mesh(void) {
     }
 }
 
+/// Options that a scheme does not have, or not with others: the baker is refused, whatever the mesh.
+static void test_refused_options(void) {
+    static const struct {
+        limn_bake_desc desc;
+        const char *text;
+    } refused[] = {
+        {{.scheme = LIMN_SCHEME_CATMARK, .weights = LIMN_WEIGHTS_WARREN}, "--weights"},
+        {{.tension = 0.01f}, "--tension is that of"},
+        {{.scheme = LIMN_SCHEME_BUTTERFLY, .tension = 0.26f}, "--tension is not between"},
+        {{.scheme = LIMN_SCHEME_BUTTERFLY, .tension = NAN}, "--tension is not between"},
+        {{.scheme = LIMN_SCHEME_NONE, .creases = LIMN_CREASES_LOMONT}, "--creases lomont"},
+        {{.scheme = LIMN_SCHEME_BUTTERFLY, .creasing = LIMN_CREASING_UNIFORM}, "--creasing goes"},
+        {{.creases = LIMN_CREASES_LOMONT, .creasing = LIMN_CREASING_CHAIKIN}, "--creasing chaikin"},
+        {{.scheme = LIMN_SCHEME_NONE, .boundary = LIMN_BOUNDARY_EDGE_AND_CORNER}, "--boundary"},
+    };
+    const limn_bake_mesh mesh = tagged_mesh();
+    for (size_t r = 0; r < sizeof refused / sizeof *refused; r++) {
+        limn_baker *const baker = limn_baker_create(&refused[r].desc);
+        CHECK_CONTAINS(limn_baker_error(baker), refused[r].text);
+        CHECK_EQUAL(limn_baker_add_mesh(baker, &mesh), LIMN_BAKE_BAD_INPUT);
+        CHECK_CONTAINS(limn_baker_error(baker), refused[r].text);
+        limn_baker_destroy(baker);
+    }
+}
+
 // ---- The baker's own check
 
 /// Patches that do not agree on an edge must not be written. They always agree; so one is made not
@@ -1020,5 +1045,6 @@ int main(void) {
     test_bad_tags();
     test_holes();
     test_boundary_of_mesh();
+    test_refused_options();
     return check_report();
 }

@@ -174,8 +174,10 @@ typedef struct limn_bake_mesh {
 
 typedef struct limn_baker limn_baker;
 
-/// A baker for one file. NULL desc: defaults. Returns NULL only when out of memory;
-/// limn_baker_error() and limn_baker_destroy() take NULL. Any thread; one thread at a time.
+/// A baker for one file. NULL desc: defaults. Options that do nothing with the scheme, or contradict
+/// one another, are an error: limn_baker_error() says which, and the baker can only be destroyed.
+/// Returns NULL only when out of memory; limn_baker_error() and limn_baker_destroy() take NULL. Any
+/// thread; one thread at a time.
 limn_baker *limn_baker_create(const limn_bake_desc *desc);
 void limn_baker_destroy(limn_baker *baker);
 
