@@ -52,18 +52,20 @@ static limn_bake_status try_bake(limni_context *context, const limni_base *base,
 limn_bake_status limni_choose_isolation(limni_context *context, const limni_base *base,
                                         const limni_rules *rules, limni_footprint footprints[2],
                                         limn_isolate *isolate) {
-    limn_bake_status status[2] = {LIMN_BAKE_OK};
+    bool isolated = false;
     for (int way = 0; way < 2; way++) {
         limni_context scratch = {.desc = context->desc}; // all of the trial goes with it
         scratch.desc.progress = NULL;
-        status[way] = try_bake(&scratch, base, *rules,
-                               way ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER, &footprints[way]);
-        if (way == 0) memcpy(context->error, scratch.error, sizeof context->error);
+        const limn_bake_status status =
+            try_bake(&scratch, base, *rules, way ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER,
+                     &footprints[way]);
+        const bool too_large = way == 1 && status == LIMN_BAKE_BAD_INPUT; // to be isolated
+        if (!too_large) memcpy(context->error, scratch.error, sizeof context->error);
         limni_release_all(&scratch);
-        LIMNI_TRY(status[0]);
+        if (!too_large) LIMNI_TRY(status);
+        isolated = status == LIMN_BAKE_OK && footprints[0].tables > TABLES_MAX &&
+                   footprints[1].tables < footprints[0].tables;
     }
-    const bool isolated = status[1] == LIMN_BAKE_OK && footprints[0].tables > TABLES_MAX &&
-                          footprints[1].tables < footprints[0].tables;
     *isolate = isolated ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER;
     return LIMN_BAKE_OK;
 }

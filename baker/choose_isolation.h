@@ -6,7 +6,7 @@
 
 /// Bakes the mesh both ways, without measuring errors, and decides (docs/design.md, "Isolation").
 ///
-/// footprints  out: not isolated, isolated
+/// footprints  out: not isolated, isolated; 0 where the mesh is too large for that
 /// isolate     out: LIMN_ISOLATE_NEVER or LIMN_ISOLATE_ALWAYS
 limn_bake_status limni_choose_isolation(limni_context *context, const limni_base *base,
                                         const limni_rules *rules, limni_footprint footprints[2],
