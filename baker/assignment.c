@@ -74,8 +74,7 @@ limn_bake_status limni_check_agreement(limni_context *context, limni_classifier 
         limni_place a, b;
         status = limni_fail(context, LIMN_BAKE_INTERNAL,
                             "%s: defect in the baker: %s and %s disagree on their common edge",
-                            mesh->path ? mesh->path : mesh->name,
-                            limni_face_place(mesh, mesh->face_of[h], a),
+                            limni_mesh_label(mesh), limni_face_place(mesh, mesh->face_of[h], a),
                             limni_face_place(mesh, mesh->face_of[pair], b));
     }
     limni_release(context, sums);

@@ -83,10 +83,6 @@ static limni_rules rules_for(const limni_rules *options, const limni_mesh *mesh)
     return rules;
 }
 
-static const char *place_of(const limni_mesh *mesh) {
-    return mesh->path ? mesh->path : mesh->name;
-}
-
 /// Says where a mesh was made for other rules.
 static void note_rules(limni_context *context, const limni_rules *rules, bool is_lomont,
                        const limni_mesh *mesh) {
@@ -95,17 +91,18 @@ static void note_rules(limni_context *context, const limni_rules *rules, bool is
         limni_note(context,
                    "%s: a mesh of Lomont's with OpenSubdiv's creases and boundaries; his are "
                    "--creases lomont",
-                   place_of(mesh));
+                   limni_mesh_label(mesh));
     if (rules->scheme == LIMN_SCHEME_BUTTERFLY && context->desc.isolate == LIMN_ISOLATE_AUTO)
         limni_note(context,
                    "%s: not isolated: with the butterfly that divides the mesh, which --isolate 1 "
                    "asks for",
-                   place_of(mesh));
+                   limni_mesh_label(mesh));
     if (rules->scheme == LIMN_SCHEME_BUTTERFLY && limni_has_sharpness(mesh))
         limni_note(context, "%s: sharp edges and vertices are smooth: the butterfly has no creases",
-                   place_of(mesh));
+                   limni_mesh_label(mesh));
     if (lomont && mesh->creasing == LIMN_CREASING_CHAIKIN && limni_has_sharpness(mesh))
-        limni_note(context, "%s: Chaikin's creasing is ignored: Lomont has none", place_of(mesh));
+        limni_note(context, "%s: Chaikin's creasing is ignored: Lomont has none",
+                   limni_mesh_label(mesh));
 }
 
 /// What the rules make of the mesh before it is classified.
@@ -114,10 +111,11 @@ static limn_bake_status apply_rules(limni_context *context, const limni_rules *r
     if (rules->scheme == LIMN_SCHEME_BUTTERFLY && mesh->origins)
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
                           "%s: not a manifold, and sheets of the butterfly would not meet",
-                          place_of(mesh));
+                          limni_mesh_label(mesh));
     if (rules->boundary == LIMN_BOUNDARY_NONE) limni_mesh_open_boundary(mesh);
     if (mesh->hole_count == mesh->face_count)
-        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: all faces are holes", place_of(mesh));
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: all faces are holes",
+                          limni_mesh_label(mesh));
     return LIMN_BAKE_OK;
 }
 

@@ -24,7 +24,7 @@ static uint32_t count_others(const limni_mesh *mesh) {
 
 static void note_division(limni_context *context, const limni_mesh *source,
                           const limni_mesh *made) {
-    const char *const name = source->path ? source->path : source->name;
+    const char *const name = limni_mesh_label(source);
     const uint32_t others = count_others(source);
     if (others > 0)
         limni_note(context,

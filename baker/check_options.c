@@ -20,6 +20,9 @@ static const char *find_fault(const limn_bake_desc *desc) {
         return "--creasing chaikin goes with --creases opensubdiv";
     if (desc->boundary == LIMN_BOUNDARY_EDGE_AND_CORNER && !creased)
         return "--boundary edge-and-corner goes with --scheme loop or catmark";
+    if (desc->scheme == LIMN_SCHEME_NONE && desc->face_varying != LIMN_FACE_VARYING_DEFAULT &&
+        desc->face_varying != LIMN_FACE_VARYING_ALL)
+        return "with --scheme none, --face-varying is all";
     return NULL;
 }
 

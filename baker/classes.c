@@ -93,8 +93,6 @@ static limn_bake_status grow(limni_context *context, limni_classes *classes) {
 
 // ---- Tables
 
-enum { ROW_COUNT = 289 };
-
 /// What a class is made from.
 typedef struct class_maker {
     const limn_domain *domain;
@@ -123,12 +121,12 @@ static uint64_t print_column(uint64_t hash, const float *column, const uint16_t 
 }
 
 /// The columns of one slot, a row each, for all tables.
-typedef float slot_columns[3][ROW_COUNT];
+typedef float slot_columns[3][LIMNI_ROWS_MAX];
 
 /// The columns of a slot along one edge, in grid steps of the depth. The neighbour has the
 /// positions in the opposite order, and the tangents with the opposite sign as well; they are not
 /// those of corners.
-static limni_edge_print print_edge(const uint16_t *rows, float (*columns)[ROW_COUNT],
+static limni_edge_print print_edge(const uint16_t *rows, float (*columns)[LIMNI_ROWS_MAX],
                                    uint32_t table_count, uint32_t step, bool along) {
     bool any = false, any_tangent = false;
     limni_edge_print print = {.positions =
@@ -200,8 +198,8 @@ static const limni_piece_layout *piece_layout_of(const class_maker *maker, bool 
 }
 
 /// What pads a column stays zero.
-static void fill_piece_column(const class_maker *maker, uint32_t table, const float rows[ROW_COUNT],
-                              float *column) {
+static void fill_piece_column(const class_maker *maker, uint32_t table,
+                              const float rows[LIMNI_ROWS_MAX], float *column) {
     const limni_piece_layout *const layout = piece_layout_of(maker, table > 0);
     for (uint32_t place = 0; place < layout->row_stride; place++) {
         if (layout->rows[place] != LIMNI_NO_ROW) column[place] = rows[layout->rows[place]];
@@ -209,7 +207,7 @@ static void fill_piece_column(const class_maker *maker, uint32_t table, const fl
 }
 
 static void fill_patch_column(const class_maker *maker, uint32_t table, uint32_t slot,
-                              const float rows[ROW_COUNT], float *column) {
+                              const float rows[LIMNI_ROWS_MAX], float *column) {
     const limni_layout *const layout =
         limni_layout_get(maker->domain->kind, table > 0, maker->pair_count);
     for (uint32_t place = 0; place < layout->row_stride; place++) {

@@ -361,8 +361,7 @@ static limn_bake_status check_size(limni_context *context, limni_classifier *cla
         return LIMN_BAKE_OK;
     limni_place control_text, face_text;
     return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                      "%s: %s has valence %u: %s %s %s more than %u %s",
-                      mesh->path ? mesh->path : mesh->name,
+                      "%s: %s has valence %u: %s %s %s more than %u %s", limni_mesh_label(mesh),
                       limni_control_place(mesh, widest, control_text), mesh->valences[widest],
                       far ? "around" : "the corners of", limni_face_place(mesh, face, face_text),
                       far ? "there are" : "have", most, far ? "control points" : "edges in all");

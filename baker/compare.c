@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "compare.h"
 
+#include "../runtime/domain.h"
 #include "subject.h"
 
 #include <float.h>
@@ -56,9 +57,7 @@ static bool has_comparable_normals(const limni_star *star, bool sided) {
 static limn_bake_status find_comparable(limni_context *context, const limni_base *base,
                                         const limni_rules *rules, bool **comparable) {
     const limni_mesh *const source = base->mesh;
-    uint32_t valence_max = 0;
-    for (uint32_t c = 0; c < source->control_count; c++)
-        valence_max = source->valences[c] > valence_max ? source->valences[c] : valence_max;
+    const uint32_t valence_max = limni_valence_max(source);
     uint32_t *const room = limni_allocate(context, 4 * (size_t)valence_max, sizeof *room);
     *comparable = limni_allocate_zeroed(context, source->control_count, sizeof **comparable);
     if (!room || !*comparable) return LIMN_BAKE_MEMORY;
@@ -207,47 +206,72 @@ static void compare_patch(const limn_mesh *mesh, uint32_t patch, const float (*v
     }
 }
 
-limn_bake_status limni_compare(limni_context *context, const limn_pack *pack, const limn_mesh *mesh,
-                               const char *path, limni_comparison *comparison) {
-    limni_subject read;
-    answer given = {0};
-    LIMNI_TRY(limni_subject_read(context, pack, mesh, path, &read));
-    LIMNI_TRY(oracle(context, &read, mesh->normals, &given));
+/// The vertices of all patches at the finest level.
+typedef struct evaluated {
+    limn_plan plan;
+    float (*vertices)[3], (*normals)[3];
+} evaluated;
 
-    const limn_plan plan = limn_plan_uniform(mesh, LIMN_LEVEL_MAX);
-    float(*const vertices)[3] =
-        limni_allocate(context, (size_t)plan.vertex_count, sizeof *vertices);
-    float(*const normals)[3] = limni_allocate(context, (size_t)plan.vertex_count, sizeof *normals);
+static limn_bake_status evaluate(limni_context *context, const limn_mesh *mesh, evaluated *made) {
+    made->plan = limn_plan_uniform(mesh, LIMN_LEVEL_MAX);
+    const size_t count = (size_t)made->plan.vertex_count;
+    made->vertices = limni_allocate(context, count, sizeof *made->vertices);
+    made->normals = limni_allocate(context, count, sizeof *made->normals);
     float(*const control_normals)[3] =
         limni_allocate(context, mesh->normal_count, sizeof *control_normals);
-    if (!vertices || !normals || !control_normals) return LIMN_BAKE_MEMORY;
-    limn_output output = {.vertices = vertices};
+    if (!made->vertices || !made->normals || !control_normals) return LIMN_BAKE_MEMORY;
+    limn_output output = {.vertices = made->vertices};
     if (mesh->normals) {
         limn_mesh_control_normals(mesh, mesh->controls, control_normals[0]);
-        output.normals = normals;
+        output.normals = made->normals;
         output.control_normals = control_normals[0];
     }
-    limn_evaluate(&plan, mesh->controls, 0, plan.patch_count, &output);
+    limn_evaluate(&made->plan, mesh->controls, 0, made->plan.patch_count, &output);
+    limni_release(context, control_normals);
+    return LIMN_BAKE_OK;
+}
 
-    limni_unrotated unrotated;
-    limni_unrotate(mesh->domain, unrotated);
+/// Sets what differences are measured by.
+static limn_bake_status measure_extent(limni_context *context, const limn_mesh *mesh,
+                                       const char *path, limni_comparison *comparison) {
     const float *const low = mesh->bounds_min;
     const double high[3] = {mesh->bounds_max[0], mesh->bounds_max[1], mesh->bounds_max[2]};
-    *comparison =
-        (limni_comparison){.diagonal = distance(low, high), .vertex_count = plan.vertex_count};
+    comparison->diagonal = distance(low, high);
+    if (!(comparison->diagonal > 0))
+        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: the mesh has no extent", path);
     for (int axis = 0; axis < 3; axis++) {
         const double reach = fmax(fabs((double)low[axis]), fabs(high[axis]));
         comparison->rounding += reach * (double)FLT_EPSILON / comparison->diagonal;
     }
-    if (!(comparison->diagonal > 0))
-        return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: the mesh has no extent", path);
-    for (uint32_t patch = 0; patch < plan.patch_count; patch++) {
-        compare_patch(mesh, patch, (const float(*)[3])vertices, (const double(*)[3])given.limit,
-                      unrotated, comparison);
+    return LIMN_BAKE_OK;
+}
+
+static void compare_patches(const limn_mesh *mesh, const answer *given, const evaluated *made,
+                            limni_comparison *comparison) {
+    limni_unrotated unrotated;
+    limni_unrotate(mesh->domain, unrotated);
+    for (uint32_t patch = 0; patch < made->plan.patch_count; patch++) {
+        compare_patch(mesh, patch, (const float(*)[3])made->vertices,
+                      (const double(*)[3])given->limit, unrotated, comparison);
         if (mesh->normals)
-            compare_normals(mesh, &given, patch, (const float(*)[3])normals, unrotated, comparison);
+            compare_normals(mesh, given, patch, (const float(*)[3])made->normals, unrotated,
+                            comparison);
     }
+    comparison->vertex_count = made->plan.vertex_count;
+    comparison->mean /= (double)comparison->vertex_count;
     if (comparison->normal_count) comparison->mean_angle /= (double)comparison->normal_count;
-    comparison->mean /= (double)plan.vertex_count;
+}
+
+limn_bake_status limni_compare(limni_context *context, const limn_pack *pack, const limn_mesh *mesh,
+                               const char *path, limni_comparison *comparison) {
+    limni_subject read;
+    answer given = {0};
+    evaluated made;
+    *comparison = (limni_comparison){0};
+    LIMNI_TRY(limni_subject_read(context, pack, mesh, path, &read));
+    LIMNI_TRY(measure_extent(context, mesh, path, comparison));
+    LIMNI_TRY(oracle(context, &read, mesh->normals, &given));
+    LIMNI_TRY(evaluate(context, mesh, &made));
+    compare_patches(mesh, &given, &made, comparison);
     return LIMN_BAKE_OK;
 }

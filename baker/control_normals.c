@@ -28,9 +28,7 @@ typedef struct builder {
 enum { RULE_COUNT = 3 };
 
 static limn_bake_status begin(builder *b) {
-    for (uint32_t c = 0; c < b->mesh->control_count; c++) {
-        if (b->mesh->valences[c] > b->valence_max) b->valence_max = b->mesh->valences[c];
-    }
+    b->valence_max = limni_valence_max(b->mesh);
     const size_t count = (size_t)b->valence_max + 1;
     b->first_weights = limni_allocate(b->context, RULE_COUNT * count, sizeof *b->first_weights);
     b->edges = limni_allocate(b->context, count, sizeof *b->edges);
@@ -61,8 +59,18 @@ static uint32_t ring_size(const limni_star *star) {
     return star->count + (star->diagonals ? limni_star_face_count(star) : 0);
 }
 
+/// What records count has 32 bits.
+static limn_bake_status check_count(const builder *b, uint64_t count) {
+    if (count <= UINT32_MAX) return LIMN_BAKE_OK;
+    return limni_fail(b->context, LIMN_BAKE_BAD_INPUT,
+                      "%s: vertices have too many neighbours for exact normals",
+                      limni_mesh_label(b->mesh));
+}
+
+/// Makes room for more weights.
 static limn_bake_status reserve_weights(builder *b, uint64_t size) {
     limni_control_normals *const normals = b->normals;
+    LIMNI_TRY(check_count(b, normals->weight_count + size));
     if (normals->weight_count + size > b->weight_capacity) {
         b->weight_capacity = 2 * (b->weight_capacity + size);
         float *const weights =
@@ -70,9 +78,6 @@ static limn_bake_status reserve_weights(builder *b, uint64_t size) {
         if (!weights) return LIMN_BAKE_MEMORY;
         normals->weights = weights;
     }
-    if (normals->weight_count + size > UINT32_MAX)
-        return limni_fail(b->context, LIMN_BAKE_BAD_INPUT,
-                          "the mesh has too many sharp vertices for exact normals");
     return LIMN_BAKE_OK;
 }
 
@@ -224,6 +229,7 @@ static limn_bake_status list_two_rings(builder *b, uint32_t control, uint32_t **
 
 /// Makes room for more of a ring.
 static limn_bake_status reserve_ring(builder *b, uint64_t size) {
+    LIMNI_TRY(check_count(b, b->normals->ring_size + size));
     if (b->normals->ring_size + size <= b->ring_capacity) return LIMN_BAKE_OK;
     b->ring_capacity = 2 * (b->normals->ring_size + size);
     uint32_t *const ring =

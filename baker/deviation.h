@@ -6,12 +6,9 @@
 #ifndef LIMNI_DEVIATION_H
 #define LIMNI_DEVIATION_H
 
-#include "limn/limn.h"
+#include "../runtime/domain.h"
 
-enum {
-    LIMNI_ROWS_MAX = 289,
-    LIMNI_NEAR_MAX = 4, ///< a triangle and its neighbours
-};
+enum { LIMNI_NEAR_MAX = 4 }; ///< a triangle and its neighbours
 
 /// The triangles of a level near a row: first the one that it lies on in the domain, then the
 /// neighbours of that one inside the patch.

@@ -158,7 +158,7 @@ limn_bake_status limni_isolation_classify(limni_context *context, limni_isolatio
         return limni_fail(
             context, LIMN_BAKE_BAD_INPUT,
             "%s: around %s there are more than %u points of the level that isolates it",
-            isolation->mesh->name, limni_face_place(isolation->mesh, face, place),
+            limni_mesh_label(isolation->mesh), limni_face_place(isolation->mesh, face, place),
             LIMN_FORMAT_CONTROLS_MAX);
     }
     const limni_class class = describe_class(isolation, pieces, face, rotation, count);

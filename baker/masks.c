@@ -18,8 +18,8 @@ static size_t find_term_max(const limni_mesh *mesh) {
         } while (h != LIMNI_NONE && h != mesh->first[c]);
         most = count > most ? count : most;
     }
-    for (uint32_t f = 0; f < mesh->face_count;
-         f++) { // the other side may be larger, or a face alone
+    // The other side of an edge may be larger, or there is a face alone.
+    for (uint32_t f = 0; f < mesh->face_count; f++) {
         const size_t size = limni_face_size(mesh, f);
         most = 2 + 2 * size > most ? 2 + 2 * size : most;
     }
@@ -29,9 +29,7 @@ static size_t find_term_max(const limni_mesh *mesh) {
 limn_bake_status limni_masks_begin(limni_context *context, limni_masks *masks,
                                    const limni_mesh *mesh, const limni_mesh_sharpness *sharpness,
                                    const limni_rules *rules) {
-    size_t widest = 0;
-    for (uint32_t c = 0; c < mesh->control_count; c++)
-        widest = mesh->valences[c] > widest ? mesh->valences[c] : widest;
+    const size_t widest = limni_valence_max(mesh);
     *masks = (limni_masks){
         .mesh = mesh,
         .sharpness = sharpness,

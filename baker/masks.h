@@ -45,9 +45,8 @@ uint32_t limni_masks_look_beside(limni_masks *masks, uint32_t r);
 
 void limni_masks_add(limni_masks *masks, uint32_t control, limni_fixed weight);
 
-/// Set the terms: of a tangent, see limni_scheme;
-/// of a vertex; of the middle of an edge, seen from its end at the star that was
-/// looked at, where it leads to ring vertex r; and of a face.
+/// Set the terms: of a vertex; of the middle of an edge, seen from its end at the star that was
+/// looked at, where it leads to ring vertex r; of a face; and of a tangent, see limni_scheme.
 void limni_masks_vertex(limni_masks *masks, uint32_t control);
 void limni_masks_edge(limni_masks *masks, uint32_t control, uint32_t r);
 void limni_masks_face(limni_masks *masks, uint32_t face);

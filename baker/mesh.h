@@ -80,6 +80,19 @@ static inline bool limni_is_boundary(const limni_mesh *mesh, uint32_t control) {
     return h != LIMNI_NONE && mesh->pairs[h] == LIMNI_NONE;
 }
 
+/// Edges of the vertex that has most.
+static inline uint32_t limni_valence_max(const limni_mesh *mesh) {
+    uint32_t most = 0;
+    for (uint32_t c = 0; c < mesh->control_count; c++)
+        most = mesh->valences[c] > most ? mesh->valences[c] : most;
+    return most;
+}
+
+/// What errors and notes call the mesh.
+static inline const char *limni_mesh_label(const limni_mesh *mesh) {
+    return mesh->path ? mesh->path : mesh->name;
+}
+
 /// The control point before the mesh was split.
 static inline uint32_t limni_origin(const limni_mesh *mesh, uint32_t control) {
     return mesh->origins ? mesh->origins[control] : control;

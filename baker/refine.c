@@ -288,8 +288,8 @@ limn_bake_status limni_refine(limni_context *context, const limni_mesh *mesh,
     *refined = (limni_refined){0};
     if (mesh->half_edge_count > LIMNI_CORNERS_MAX) // there will be four times as many
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                          "%s: more than %u corners of faces to subdivide",
-                          mesh->path ? mesh->path : mesh->name, LIMNI_CORNERS_MAX);
+                          "%s: more than %u corners of faces to subdivide", limni_mesh_label(mesh),
+                          LIMNI_CORNERS_MAX);
     LIMNI_TRY(number_points(&r));
     LIMNI_TRY(split_faces(&r));
     return sharpen(&r);

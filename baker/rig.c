@@ -43,7 +43,7 @@ static limn_bake_status list_targets(limni_context *context, const limni_rig *fr
     }
     if (entries > UINT32_MAX)
         return limni_fail(context, LIMN_BAKE_BAD_INPUT, "%s: morph targets move too many points",
-                          mesh->path ? mesh->path : mesh->name);
+                          limni_mesh_label(mesh));
     rig->points = limni_allocate(context, (size_t)entries, sizeof *rig->points);
     rig->deltas = limni_allocate(context, (size_t)entries, sizeof *rig->deltas);
     if (!rig->points || !rig->deltas) return LIMN_BAKE_MEMORY;

@@ -176,8 +176,7 @@ static void note_split(limni_context *context, const splitter *s, uint32_t edge_
     limni_note(context,
                "%s: split: %u edges, sharp now, and %u vertices, of which %u are corners now; "
                "%u control points added",
-               s->mesh->path ? s->mesh->path : s->mesh->name, edge_count, vertex_count,
-               corner_count, added);
+               limni_mesh_label(s->mesh), edge_count, vertex_count, corner_count, added);
 }
 
 static limn_bake_status split(limni_context *context, const splitter *s) {

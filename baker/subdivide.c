@@ -6,12 +6,11 @@
  */
 #include "subdivide.h"
 
+#include "../runtime/domain.h"
 #include "masks.h"
 #include "refine.h"
 
 #include <string.h>
-
-enum { ROWS_MAX = 289 };
 
 typedef struct subdivision {
     limni_context *context;
@@ -430,7 +429,7 @@ static limn_bake_status project_rows(const subdivision *s, const level *l, int d
                                      const limni_rows *rows) {
     const size_t table_size = (size_t)s->domain->row_counts[depth] * s->control_count;
     const bool later = s->scheme->tangent_terms;
-    uint32_t half_steps[ROWS_MAX];
+    uint32_t half_steps[LIMNI_ROWS_MAX];
     limni_masks masks;
     LIMNI_TRY(limni_masks_begin(s->context, &masks, &l->mesh, &l->sharpness, s->rules));
     if (rows->tangents) memset(rows->tangents, 0, 2 * table_size * sizeof *rows->tangents);

@@ -28,10 +28,6 @@ const char *limni_control_place(const limni_mesh *mesh, uint32_t control, limni_
     return place(text, "vertex", number + mesh->index_base, mesh->control_lines, origin);
 }
 
-static const char *file_of(const limni_mesh *mesh) {
-    return mesh->path ? mesh->path : mesh->name;
-}
-
 // ---- Pairs
 
 /// The half-edges that start at each control point: starts[c] to starts[c + 1] of `outgoing`.
@@ -89,10 +85,10 @@ static limn_bake_status fail_edge(limni_context *context, const limni_mesh *mesh
         return limni_fail(
             context, LIMN_BAKE_BAD_INPUT,
             "%s: non-manifold edge from %s to %s: %u faces share it, among them %s and %s",
-            file_of(mesh), a, b, count, other_face, face);
+            limni_mesh_label(mesh), a, b, count, other_face, face);
     return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                      "%s: inconsistent winding: %s and %s both run from %s to %s", file_of(mesh),
-                      other_face, face, a, b);
+                      "%s: inconsistent winding: %s and %s both run from %s to %s",
+                      limni_mesh_label(mesh), other_face, face, a, b);
 }
 
 /// Looks at all half-edges out of control point c: each must go somewhere else. With `cut`, all
@@ -188,7 +184,7 @@ static limn_bake_status fail_vertex(limni_context *context, const limni_mesh *me
     limni_place vertex, face, other_face;
     return limni_fail(context, LIMN_BAKE_BAD_INPUT,
                       "%s: non-manifold %s: %s and %s meet there without sharing a chain of edges",
-                      file_of(mesh), limni_control_place(mesh, c, vertex),
+                      limni_mesh_label(mesh), limni_control_place(mesh, c, vertex),
                       limni_face_place(mesh, mesh->face_of[h], face),
                       limni_face_place(mesh, mesh->face_of[other], other_face));
 }
@@ -223,7 +219,7 @@ static void note_unused(limni_context *context, const limni_mesh *mesh) {
     limni_place text;
     if (count)
         limni_note(context, "%s: %u control points are used by no face (the first is %s); kept",
-                   file_of(mesh), count, limni_control_place(mesh, example, text));
+                   limni_mesh_label(mesh), count, limni_control_place(mesh, example, text));
 }
 
 limn_bake_status limni_connect(limni_context *context, limni_mesh *mesh) {

@@ -7,6 +7,7 @@
 #include "limn/limn.h"
 
 enum {
+    LIMNI_ROWS_MAX = 289, ///< of the largest domain
     LIMNI_SEGMENT_MAX = 4,
     LIMNI_PAIR_BLOCK_MAX = 6,
     LIMNI_EDGE_ROWS = 16, ///< a tangent table's places for one edge

@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-enum { TRIANGLE_MAX = 512, ROW_MAX = 289, NONE = 0xffff };
+enum { TRIANGLE_MAX = 512, NONE = 0xffff };
 
 /// The triangles of one template.
 typedef struct triangulation {
@@ -31,7 +31,7 @@ static void move_rows(const limn_domain *domain, const uint8_t edge_levels[LIMN_
 
 static void triangulate(const limn_domain *domain, uint32_t level,
                         const uint8_t edge_levels[LIMN_CORNER_MAX], triangulation *t) {
-    uint16_t moved[ROW_MAX];
+    uint16_t moved[LIMNI_ROWS_MAX];
     move_rows(domain, edge_levels, moved);
     t->count = 0;
     for (uint32_t i = 0; i < domain->index_counts[level]; i += 3) {
@@ -48,19 +48,19 @@ static void triangulate(const limn_domain *domain, uint32_t level,
 /// The triangle on the left of each directed edge between rows: edges are ordered by the row that
 /// they leave.
 typedef struct edge_index {
-    uint16_t first[ROW_MAX + 1]; ///< edge of each row
+    uint16_t first[LIMNI_ROWS_MAX + 1]; ///< edge of each row
     struct {
         uint16_t end, triangle;
     } edges[3 * TRIANGLE_MAX];
 } edge_index;
 
 static void index_edges(const triangulation *t, edge_index *left) {
-    uint16_t next[ROW_MAX + 1] = {0};
+    uint16_t next[LIMNI_ROWS_MAX + 1] = {0};
     for (uint32_t i = 0; i < t->count; i++) {
         for (uint32_t k = 0; k < 3; k++)
             next[t->corners[i][k] + 1]++;
     }
-    for (uint32_t row = 0; row < ROW_MAX; row++)
+    for (uint32_t row = 0; row < LIMNI_ROWS_MAX; row++)
         next[row + 1] = (uint16_t)(next[row + 1] + next[row]);
     memcpy(left->first, next, sizeof next);
     for (uint32_t i = 0; i < t->count; i++) {
