@@ -108,17 +108,18 @@ static void add_middle(limni_masks *masks, uint32_t face, limni_fixed weight) {
         limni_masks_add(masks, mesh->corners[h], share);
 }
 
-void limni_masks_vertex(limni_masks *masks, uint32_t control) {
+/// The vertex and its neighbours.
+static void add_ring(limni_masks *masks, const limni_fixed *weights) {
+    limni_masks_add(masks, masks->vertex, weights[0]);
+    for (uint32_t r = 0; r < masks->star.count; r++)
+        limni_masks_add(masks, masks->star.ring[r], weights[1 + r]);
+}
+
+void limni_masks_add_star(limni_masks *masks, const limni_fixed *weights) {
     const limni_star *const star = &masks->star;
-    limni_fixed *const weights = masks->weights[0];
-    masks->scheme->vertex_mask(masks->rules, star, weights);
-    masks->term_count = 0;
-    limni_masks_add(masks, control, weights[0]);
-    for (uint32_t r = 0; r < star->count; r++)
-        limni_masks_add(masks, star->ring[r], weights[1 + r]);
-    if (masks->scheme->domain != LIMN_DOMAIN_QUAD) return;
-    for (uint32_t f = 0; f < limni_star_face_count(star); f++)
-        add_middle(masks, masks->mesh->face_of[masks->ring_edges[f]], weights[1 + star->count + f]);
+    add_ring(masks, weights);
+    for (uint32_t f = 0; star->diagonals && f < limni_star_face_count(star); f++)
+        limni_masks_add(masks, star->diagonals[f], weights[1 + star->count + f]);
 }
 
 /// What an edge has of the face of one of its half-edges.
@@ -132,25 +133,41 @@ static void add_beside(limni_masks *masks, uint32_t h, limni_fixed weight) {
     }
 }
 
-void limni_masks_edge(limni_masks *masks, uint32_t control, uint32_t r) {
-    if (masks->scheme->edge_terms) {
-        masks->term_count = 0;
-        masks->scheme->edge_terms(masks, r, limni_masks_look_beside(masks, r));
-        return;
-    }
-    const limni_edge_feature feature = limni_star_edge_feature(masks->rules, &masks->star, r);
-    const limni_edge_mask mask = masks->scheme->edge_mask(&feature);
+void limni_masks_add_edge(limni_masks *masks, uint32_t r, const limni_edge_mask *mask) {
     const uint32_t h = masks->ring_edges[r];
+    limni_masks_add(masks, masks->vertex, mask->ends[0]);
+    limni_masks_add(masks, masks->star.ring[r], mask->ends[1]);
+    add_beside(masks, h, mask->beside);
+    add_beside(masks, masks->mesh->pairs[h], mask->beside);
+}
+
+// ---- What a scheme says
+
+void limni_masks_vertex(limni_masks *masks) {
+    const limni_star *const star = &masks->star;
+    limni_fixed *const weights = masks->weights[0];
+    masks->scheme->vertex_mask(masks->rules, star, weights);
     masks->term_count = 0;
-    limni_masks_add(masks, control, mask.ends[0]);
-    limni_masks_add(masks, masks->star.ring[r], mask.ends[1]);
-    add_beside(masks, h, mask.beside);
-    add_beside(masks, masks->mesh->pairs[h], mask.beside);
+    add_ring(masks, weights);
+    if (masks->scheme->domain != LIMN_DOMAIN_QUAD) return;
+    for (uint32_t f = 0; f < limni_star_face_count(star); f++)
+        add_middle(masks, masks->mesh->face_of[masks->ring_edges[f]], weights[1 + star->count + f]);
+}
+
+void limni_masks_edge(limni_masks *masks, uint32_t r) {
+    masks->term_count = 0;
+    masks->scheme->edge_terms(masks, r);
 }
 
 void limni_masks_face(limni_masks *masks, uint32_t face) {
     masks->term_count = 0;
     add_middle(masks, face, LIMNI_FIXED_ONE);
+}
+
+void limni_masks_limit(limni_masks *masks) {
+    masks->scheme->limit_mask(masks->rules, &masks->star, masks->weights[0]);
+    masks->term_count = 0;
+    limni_masks_add_star(masks, masks->weights[0]);
 }
 
 void limni_masks_tangent(limni_masks *masks, uint32_t half_steps, int tangent) {

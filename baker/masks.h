@@ -43,13 +43,25 @@ void limni_masks_look(limni_masks *masks, uint32_t control, uint32_t h);
 /// Sets `other` to the star of ring vertex r, and returns the place of the vertex in it.
 uint32_t limni_masks_look_beside(limni_masks *masks, uint32_t r);
 
+// ---- For schemes
+
 void limni_masks_add(limni_masks *masks, uint32_t control, limni_fixed weight);
 
-/// Set the terms: of a vertex; of the middle of an edge, seen from its end at the star that was
-/// looked at, where it leads to ring vertex r; of a face; and of a tangent, see limni_scheme.
-void limni_masks_vertex(limni_masks *masks, uint32_t control);
-void limni_masks_edge(limni_masks *masks, uint32_t control, uint32_t r);
+/// Of the star, with the weights of a limni_mask_fn other than a vertex mask.
+void limni_masks_add_star(limni_masks *masks, const limni_fixed *weights);
+
+/// Of the edge to ring vertex r.
+void limni_masks_add_edge(limni_masks *masks, uint32_t r, const limni_edge_mask *mask);
+
+// ---- What a scheme says
+
+/// Set the terms: of the vertex that was looked at; of the middle of the edge from it to ring vertex
+/// r; of the middle of a face; and of the limit of the vertex and a tangent there, if its star is
+/// settled: see limni_scheme.
+void limni_masks_vertex(limni_masks *masks);
+void limni_masks_edge(limni_masks *masks, uint32_t r);
 void limni_masks_face(limni_masks *masks, uint32_t face);
+void limni_masks_limit(limni_masks *masks);
 void limni_masks_tangent(limni_masks *masks, uint32_t half_steps, int tangent);
 
 #endif

@@ -366,7 +366,7 @@ static limn_bake_status write_vertices(writer *w) {
             w->masks.term_count = 1;
         } else {
             limni_masks_look(&w->masks, c, LIMNI_NONE);
-            limni_masks_vertex(&w->masks, c);
+            limni_masks_vertex(&w->masks);
         }
         LIMNI_TRY(write_point(w, c));
     }
@@ -382,7 +382,7 @@ static limn_bake_status write_edges(writer *w, const limni_refined *refined) {
         limni_masks_look(&w->masks, start, h);
         while (refined->edge_points[w->masks.ring_edges[r]] != point)
             r++;
-        limni_masks_edge(&w->masks, start, r);
+        limni_masks_edge(&w->masks, r);
         LIMNI_TRY(write_point(w, point));
     }
     return LIMN_BAKE_OK;

@@ -18,7 +18,7 @@ typedef struct limni_edge_mask {
 
 /// Weights of a mask: [0] of the vertex itself, [1 + r] of ring vertex r, and where the domain is
 /// quads [1 + count + f] of face f, to the left of ring vertex f: in vertex masks of its middle, in
-/// others of its diagonal. They sum to exactly 1. The limit is that of a settled star.
+/// others of its diagonal. Those of a vertex and of the limit of a settled star sum to exactly 1.
 typedef void limni_mask_fn(const limni_rules *rules, const limni_star *star, limni_fixed *weights);
 
 struct limni_masks;
@@ -27,23 +27,24 @@ typedef struct limni_scheme {
     limn_domain_kind domain;
     uint32_t reach; ///< edges from the patch to the vertices whose stars its coefficients depend on
     limni_mask_fn *vertex_mask, *limit_mask;
-    limni_edge_mask (*edge_mask)(const limni_edge_feature *feature);
-    /// Weights of two tangents of the limit surface at a settled star, as above; they sum to 0.
-    /// Their cross product points to the side from which the ring is counter-clockwise. Where the
+    /// Adds the terms (masks.h) of the new vertex on the edge from the vertex that was looked at to
+    /// ring vertex r.
+    void (*edge_terms)(struct limni_masks *masks, uint32_t r);
+    /// Adds those of a tangent of the limit surface, 0: along, 1: across, at the vertex that was
+    /// looked at, whose star is settled; with a reach of 2 one level after its own. They sum to 0.
+    /// The cross product of both points to the side from which the ring is counter-clockwise. Where the
     /// star is smooth, `along` points `half_steps` half steps from ring vertex 0 towards ring vertex
     /// 1, and starting from the opposite side of an even ring negates both exactly. Otherwise they
     /// are those of the side of the crease that starts at its edge half_steps / 2, along it and into
     /// that side; at a corner, of the face that starts there.
-    void (*tangent_masks)(const limni_rules *rules, const limni_star *star, uint32_t half_steps,
-                          limni_fixed *along, limni_fixed *across);
-    /// With a reach of 2, in place of edge_mask and tangent_masks: these read more than one star, and
-    /// add terms (masks.h). Of the edge between two vertices that were looked at; of one tangent, 0:
-    /// along, 1: across, at a vertex that was looked at one level after its own.
-    void (*edge_terms)(struct limni_masks *masks, uint32_t r, uint32_t other_r);
     void (*tangent_terms)(struct limni_masks *masks, uint32_t half_steps, int tangent);
 } limni_scheme;
 
 extern const limni_scheme limni_scheme_loop, limni_scheme_catmark, limni_scheme_butterfly;
+
+/// What the terms of edges come from where a scheme reads one star.
+limni_edge_mask limni_loop_edge_mask(const limni_edge_feature *feature);
+limni_edge_mask limni_catmark_edge_mask(const limni_edge_feature *feature);
 
 /// Whether a scheme has rules for sharpness and for corners of the boundary.
 static inline bool limni_scheme_has_creases(limn_scheme scheme) {

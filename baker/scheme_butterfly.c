@@ -140,9 +140,9 @@ static void add_boundary_edge(limni_masks *masks, const edge_end *a, const edge_
     }
 }
 
-static void edge_terms(limni_masks *masks, uint32_t r, uint32_t other_r) {
+static void edge_terms(limni_masks *masks, uint32_t r) {
     const edge_end a = {&masks->star, masks->vertex, r};
-    const edge_end b = {&masks->other, masks->star.ring[r], other_r};
+    const edge_end b = {&masks->other, masks->star.ring[r], limni_masks_look_beside(masks, r)};
     const bool a_regular = is_regular(a.star), b_regular = is_regular(b.star);
     if (masks->mesh->pairs[masks->ring_edges[r]] == LIMNI_NONE) {
         add_boundary_edge(masks, &a, &b);

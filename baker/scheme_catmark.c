@@ -3,7 +3,7 @@
  * Catmull-Clark subdivision (1978), with cubic B-spline creases and boundaries as OpenSubdiv has
  * them. Limits and tangents are those of meshes of quads. docs/design.md derives them.
  */
-#include "scheme.h"
+#include "masks.h"
 
 /// The middle of a face is the mean of its corners, and a smooth vertex of valence n gets 1/n^2 of
 /// each neighbour and of each face. Faces get a multiple of 4, so that quads share it out exactly.
@@ -16,12 +16,18 @@ static void vertex_mask(const limni_rules *rules, const limni_star *star, limni_
 }
 
 /// A smooth edge has a quarter of both ends and of both faces.
-static limni_edge_mask edge_mask(const limni_edge_feature *feature) {
+limni_edge_mask limni_catmark_edge_mask(const limni_edge_feature *feature) {
     const limni_fixed smooth = (LIMNI_FIXED_ONE - feature->weight) / 4;
     const limni_fixed eighth = feature->weight / 8;
     return (limni_edge_mask){
         .ends = {smooth + feature->ends[0] * eighth, smooth + feature->ends[1] * eighth},
         .beside = smooth};
+}
+
+static void edge_terms(limni_masks *masks, uint32_t r) {
+    const limni_edge_feature feature = limni_star_edge_feature(masks->rules, &masks->star, r);
+    const limni_edge_mask mask = limni_catmark_edge_mask(&feature);
+    limni_masks_add_edge(masks, r, &mask);
 }
 
 // ---- Limits
@@ -154,11 +160,17 @@ static void tangent_masks(const limni_rules *rules, const limni_star *star, uint
     spline_tangent(star, side, across);
 }
 
+static void tangent_terms(limni_masks *masks, uint32_t half_steps, int tangent) {
+    limni_fixed *const *const weights = masks->weights;
+    tangent_masks(masks->rules, &masks->star, half_steps, weights[0], weights[1]);
+    limni_masks_add_star(masks, weights[tangent]);
+}
+
 const limni_scheme limni_scheme_catmark = {
     .domain = LIMN_DOMAIN_QUAD,
     .reach = 1,
     .vertex_mask = vertex_mask,
     .limit_mask = limit_mask,
-    .edge_mask = edge_mask,
-    .tangent_masks = tangent_masks,
+    .edge_terms = edge_terms,
+    .tangent_terms = tangent_terms,
 };

@@ -5,7 +5,7 @@
  * and Lomont do.
  * docs/design.md compares the formulas in print; several do not sum to 1.
  */
-#include "scheme.h"
+#include "masks.h"
 
 /// Loop: b(n) / n with b(n) = (40 - (3 + 2 cos(2 pi / n))^2) / 64.
 static limni_fixed loop_weight(uint32_t n) {
@@ -38,6 +38,20 @@ static void vertex_mask(const limni_rules *rules, const limni_star *star, limni_
     const limni_ring_weights given = {.smooth = ring_weight(rules, star->count),
                                       .crease = limni_fixed_ratio(1, 8)};
     limni_fill_mask(&transition, given, star, LIMN_DOMAIN_TRIANGLE, weights);
+}
+
+limni_edge_mask limni_loop_edge_mask(const limni_edge_feature *feature) {
+    // A smooth edge has 3/8 and 1/8; in sharpness, eighths are exact.
+    const limni_fixed eighth = feature->weight / 8;
+    return (limni_edge_mask){.ends = {3 * (LIMNI_FIXED_ONE / 8) + (feature->ends[0] - 3) * eighth,
+                                      3 * (LIMNI_FIXED_ONE / 8) + (feature->ends[1] - 3) * eighth},
+                             .beside = (LIMNI_FIXED_ONE - feature->weight) / 8};
+}
+
+static void edge_terms(limni_masks *masks, uint32_t r) {
+    const limni_edge_feature feature = limni_star_edge_feature(masks->rules, &masks->star, r);
+    const limni_edge_mask mask = limni_loop_edge_mask(&feature);
+    limni_masks_add_edge(masks, r, &mask);
 }
 
 /// Whether a crease is a cubic B-spline where it passes through a vertex: after Lomont, who has
@@ -158,12 +172,10 @@ static void tangent_masks(const limni_rules *rules, const limni_star *star, uint
         hoppe_tangent(star, side, across);
 }
 
-static limni_edge_mask edge_mask(const limni_edge_feature *feature) {
-    // A smooth edge has 3/8 and 1/8; in sharpness, eighths are exact.
-    const limni_fixed eighth = feature->weight / 8;
-    return (limni_edge_mask){.ends = {3 * (LIMNI_FIXED_ONE / 8) + (feature->ends[0] - 3) * eighth,
-                                      3 * (LIMNI_FIXED_ONE / 8) + (feature->ends[1] - 3) * eighth},
-                             .beside = (LIMNI_FIXED_ONE - feature->weight) / 8};
+static void tangent_terms(limni_masks *masks, uint32_t half_steps, int tangent) {
+    limni_fixed *const *const weights = masks->weights;
+    tangent_masks(masks->rules, &masks->star, half_steps, weights[0], weights[1]);
+    limni_masks_add_star(masks, weights[tangent]);
 }
 
 const limni_scheme limni_scheme_loop = {
@@ -171,6 +183,6 @@ const limni_scheme limni_scheme_loop = {
     .reach = 1,
     .vertex_mask = vertex_mask,
     .limit_mask = limit_mask,
-    .edge_mask = edge_mask,
-    .tangent_masks = tangent_masks,
+    .edge_terms = edge_terms,
+    .tangent_terms = tangent_terms,
 };

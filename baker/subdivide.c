@@ -214,7 +214,7 @@ static limn_bake_status apply_masks(const subdivision *s, const level *l, const 
         if (mesh->first[v] == LIMNI_NONE) continue;
         limni_masks_look(&masks, v, LIMNI_NONE);
         if (kept->slots[v] != LIMNI_NONE) {
-            limni_masks_vertex(&masks, v);
+            limni_masks_vertex(&masks);
             sum_terms(s, l, &masks, coefficients_of(s, next, kept->slots[v]));
         }
         for (uint32_t r = 0; r < masks.star.count; r++) {
@@ -222,7 +222,7 @@ static limn_bake_status apply_masks(const subdivision *s, const level *l, const 
             const uint32_t other = masks.star.ring[r];
             const bool whole = mesh->first[other] != LIMNI_NONE;
             if (slot == LIMNI_NONE || (whole ? other < v : s->scheme->reach > 1)) continue;
-            limni_masks_edge(&masks, v, r);
+            limni_masks_edge(&masks, r);
             sum_terms(s, l, &masks, coefficients_of(s, next, slot));
         }
     }
@@ -308,19 +308,6 @@ static limn_bake_status settle(const subdivision *s, level *fan, limni_masks *ma
     return LIMN_BAKE_OK;
 }
 
-/// Applies a mask to the star that was looked at.
-static void apply_mask(const subdivision *s, const level *l, const limni_masks *masks,
-                       uint32_t vertex, const limni_fixed *weights, limni_fixed *dst) {
-    const limni_star *const star = &masks->star;
-    begin_sum(s);
-    add_to_sum(s, l, vertex, weights[0]);
-    for (uint32_t r = 0; r < star->count; r++)
-        add_to_sum(s, l, star->ring[r], weights[1 + r]);
-    for (uint32_t f = 0; star->diagonals && f < limni_star_face_count(star); f++)
-        add_to_sum(s, l, star->diagonals[f], weights[1 + star->count + f]);
-    end_sum(s, dst);
-}
-
 /// Where the limit of one row goes.
 typedef struct limit_row {
     limni_fixed *position;    ///< NULL: not wanted
@@ -328,33 +315,37 @@ typedef struct limit_row {
     uint32_t half_steps;      ///< of the tangents
 } limit_row;
 
-/// The limit of a vertex whose star was looked at and is settled.
-static void project(const subdivision *s, const level *l, const limni_masks *masks, uint32_t vertex,
-                    const limit_row *dst) {
-    limni_fixed *const *const weights = masks->weights;
-    if (dst->position) {
-        masks->scheme->limit_mask(s->rules, &masks->star, weights[0]);
-        apply_mask(s, l, masks, vertex, weights[0], dst->position);
+/// Both tangents of the vertex that was looked at.
+static void sum_tangents(const subdivision *s, const level *l, limni_masks *masks,
+                         uint32_t half_steps, limni_fixed *const tangents[2]) {
+    for (int t = 0; t < 2; t++) {
+        limni_masks_tangent(masks, half_steps, t);
+        sum_terms(s, l, masks, tangents[t]);
     }
-    if (!dst->tangents[0]) return;
-    masks->scheme->tangent_masks(s->rules, &masks->star, dst->half_steps, weights[0], weights[1]);
-    apply_mask(s, l, masks, vertex, weights[0], dst->tangents[0]);
-    apply_mask(s, l, masks, vertex, weights[1], dst->tangents[1]);
 }
 
-/// The limit of a vertex of a level, whose star was looked at.
-static limn_bake_status project_vertex(const subdivision *s, const level *l,
-                                       const limni_masks *masks, uint32_t vertex,
+/// The limit of the vertex that was looked at, whose star is settled.
+static void project(const subdivision *s, const level *l, limni_masks *masks,
+                    const limit_row *dst) {
+    if (dst->position) {
+        limni_masks_limit(masks);
+        sum_terms(s, l, masks, dst->position);
+    }
+    if (dst->tangents[0]) sum_tangents(s, l, masks, dst->half_steps, dst->tangents);
+}
+
+/// The limit of the vertex of a level that was looked at.
+static limn_bake_status project_vertex(const subdivision *s, const level *l, limni_masks *masks,
                                        const limit_row *dst) {
     if (limni_star_is_settled(s->rules, &masks->star)) {
-        project(s, l, masks, vertex, dst);
+        project(s, l, masks, dst);
         return LIMN_BAKE_OK;
     }
     level fan;
     limni_masks settled;
-    LIMNI_TRY(begin_fan(s, l, &masks->star, vertex, &fan));
+    LIMNI_TRY(begin_fan(s, l, &masks->star, masks->vertex, &fan));
     LIMNI_TRY(settle(s, &fan, &settled));
-    project(s, &fan, &settled, 0, dst);
+    project(s, &fan, &settled, dst);
     limni_masks_end(s->context, &settled);
     release_level(s, &fan);
     return LIMN_BAKE_OK;
@@ -413,11 +404,9 @@ static limn_bake_status project_later(const subdivision *s, const level *l,
         const uint32_t row = next.rows[vertex];
         if (row == LIMNI_NONE || half_steps[row] == LIMNI_NONE) continue;
         limni_masks_look(&masks, vertex, LIMNI_NONE);
-        for (int t = 0; t < 2; t++) {
-            limni_masks_tangent(&masks, half_steps[row], t);
-            sum_terms(s, &next, &masks,
-                      tangents + (size_t)t * table_size + (size_t)row * s->control_count);
-        }
+        limni_fixed *const along = tangents + (size_t)row * s->control_count;
+        sum_tangents(s, &next, &masks, half_steps[row],
+                     (limni_fixed *const[]){along, along + table_size});
     }
     limni_masks_end(s->context, &masks);
     release_level(s, &next);
@@ -428,7 +417,7 @@ static limn_bake_status project_later(const subdivision *s, const level *l,
 static limn_bake_status project_rows(const subdivision *s, const level *l, int depth,
                                      const limni_rows *rows) {
     const size_t table_size = (size_t)s->domain->row_counts[depth] * s->control_count;
-    const bool later = s->scheme->tangent_terms;
+    const bool later = s->scheme->reach > 1;
     uint32_t half_steps[LIMNI_ROWS_MAX];
     limni_masks masks;
     LIMNI_TRY(limni_masks_begin(s->context, &masks, &l->mesh, &l->sharpness, s->rules));
@@ -448,7 +437,7 @@ static limn_bake_status project_rows(const subdivision *s, const level *l, int d
             dst.tangents[0] = later ? NULL : rows->tangents + first;
             dst.tangents[1] = rows->tangents + table_size + first;
         }
-        LIMNI_TRY(project_vertex(s, l, &masks, vertex, &dst));
+        LIMNI_TRY(project_vertex(s, l, &masks, &dst));
     }
     limni_masks_end(s->context, &masks);
     if (!later || !rows->tangents) return LIMN_BAKE_OK;
@@ -520,7 +509,7 @@ limn_bake_status limni_star_tangents(limni_context *context, const limni_rules *
     LIMNI_TRY(limni_masks_begin(context, &masks, &l.mesh, &l.sharpness, rules));
     limni_masks_look(&masks, 0, LIMNI_NONE);
     const limit_row dst = {.tangents = {along, across}, .half_steps = half_steps};
-    LIMNI_TRY(project_vertex(&s, &l, &masks, 0, &dst));
+    LIMNI_TRY(project_vertex(&s, &l, &masks, &dst));
     limni_masks_end(context, &masks);
     end_first(&s, &l);
     end_subdivision(&s);
@@ -545,10 +534,7 @@ limn_bake_status limni_vertex_tangents(limni_context *context, const limni_rules
     }
     LIMNI_TRY(limni_masks_begin(context, &masks, &l->mesh, &l->sharpness, rules));
     limni_masks_look(&masks, 0, LIMNI_NONE);
-    for (int t = 0; t < 2; t++) {
-        limni_masks_tangent(&masks, 0, t);
-        sum_terms(&s, l, &masks, t == 0 ? along : across);
-    }
+    sum_tangents(&s, l, &masks, 0, (limni_fixed *const[]){along, across});
     limni_masks_end(context, &masks);
     if (!alone) release_level(&s, &next);
     end_first(&s, &first);

@@ -365,7 +365,7 @@ static uint32_t edge_weights(limni_masks *masks, uint32_t h, bool from_end,
     limni_masks_look(masks, end, LIMNI_NONE);
     while (masks->ring_edges[r] != h && masks->ring_edges[r] != mesh->pairs[h])
         r++;
-    limni_masks_edge(masks, end, r);
+    limni_masks_edge(masks, r);
     memset(weights, 0, SLOTS * sizeof *weights);
     for (uint32_t t = 0; t < masks->term_count; t++)
         weights[masks->terms[t].control] += masks->terms[t].weight;
