@@ -2,13 +2,14 @@
 /*
  * Topology classes: faces whose surroundings are the same up to naming share one stencil table.
  *
- * The key of a face is its whole 1-neighbourhood in canonical form: valences and boundary status
- * of the corners, then the rings as slots, and where something is sharp inside, all sharpness and
- * what the rules have to know of the far ends.
+ * The key of a face is its whole surroundings in canonical form: valences and boundary status of the
+ * corners, then the rings as slots, with a reach of 2 those of the vertices next to them as well, and
+ * where something is sharp inside, all sharpness and what the rules have to know of the far ends.
  * Slots are given in the order of a walk around the corners, so a control point that occurs in
- * two rings, as on small meshes, shows in the key. Canonical rotation: where two valences are
- * equal, the third comes first, so that a mirror line, if there is one, goes through the first
- * corner; otherwise Brickhill's, lowest valence first. Ties are decided by the rest of the key.
+ * two rings, as on small meshes, shows in the key. Canonical rotation: where two valences of a
+ * triangle are equal, the third comes first, so that a mirror line, if there is one, goes through the
+ * first corner; otherwise, and of quads, Brickhill's, lowest valence first. Ties are decided by the
+ * rest of the key.
  */
 #ifndef LIMNI_CLASSIFY_H
 #define LIMNI_CLASSIFY_H

@@ -143,83 +143,89 @@ static const struct option options[] = {
 /// The options that choose a name, and what is said when there is none such.
 typedef struct choice {
     const char *names[7]; ///< up to a NULL
+    int first;            ///< what the first stands for; the next for the next, and so on
     const char *error;
 } choice;
 
-static const choice schemes = {{"loop", "catmark", "butterfly", "none"}, "there is no scheme '%s'"};
-static const choice weights = {{"loop", "warren"}, "there are no weights '%s'"};
+static const choice schemes = {
+    {"loop", "catmark", "butterfly", "none"}, LIMN_SCHEME_LOOP, "there is no scheme '%s'"};
+static const choice weights = {{"loop", "warren"}, LIMN_WEIGHTS_LOOP, "there are no weights '%s'"};
 static const choice boundaries = {{"edge-only", "edge-and-corner", "none"},
+                                  LIMN_BOUNDARY_EDGE_ONLY,
                                   "there is no boundary rule '%s'"};
-static const choice creases = {{"opensubdiv", "lomont"}, "there are no crease rules '%s'"};
-static const choice creasings = {{"uniform", "chaikin"}, "there is no creasing method '%s'"};
-static const choice normals = {{"none", "exact"}, "there are no normals '%s'"};
-
-static const choice isolations = {{"0", "1", "auto"}, "cannot isolate '%s'"};
+static const choice creases = {
+    {"opensubdiv", "lomont"}, LIMN_CREASES_OPENSUBDIV, "there are no crease rules '%s'"};
+static const choice creasings = {
+    {"uniform", "chaikin"}, LIMN_CREASING_UNIFORM, "there is no creasing method '%s'"};
+static const choice normals = {{"none", "exact"}, LIMN_NORMALS_NONE, "there are no normals '%s'"};
+static const choice isolations = {{"0", "1", "auto"}, LIMN_ISOLATE_NEVER, "cannot isolate '%s'"};
 
 static const choice face_varyings = {
     {"none", "corners-only", "corners-plus1", "corners-plus2", "boundaries", "all"},
+    LIMN_FACE_VARYING_NONE,
     "there is no face-varying mode '%s'"};
 
-/// Sets *chosen to `first` for the first name, and so on.
-static int choose(const choice *from, int first, int *chosen) {
+/// What optarg stands for. Sets *status if it is none of the names.
+static int choose(const choice *from, int *status) {
     for (int n = 0; from->names[n]; n++) {
-        if (strcmp(optarg, from->names[n]) != 0) continue;
-        *chosen = first + n;
-        return LIMNI_EXIT_OK;
+        if (strcmp(optarg, from->names[n]) == 0) return from->first + n;
     }
-    return limni_usage_error("bake", from->error, optarg);
+    *status = limni_usage_error("bake", from->error, optarg);
+    return 0;
+}
+
+/// The options that choose a name, and those that there are not.
+static int parse_choice(int option, limn_bake_desc *desc) {
+    int status = LIMNI_EXIT_OK;
+    switch (option) {
+    case OPTION_SCHEME:
+        desc->scheme = (limn_scheme)choose(&schemes, &status);
+        break;
+    case OPTION_WEIGHTS:
+        desc->weights = (limn_weights)choose(&weights, &status);
+        break;
+    case OPTION_BOUNDARY:
+        desc->boundary = (limn_boundary)choose(&boundaries, &status);
+        break;
+    case OPTION_CREASES:
+        desc->creases = (limn_creases)choose(&creases, &status);
+        break;
+    case OPTION_CREASING:
+        desc->creasing = (limn_creasing)choose(&creasings, &status);
+        break;
+    case OPTION_NORMALS:
+        desc->normals = (limn_normals)choose(&normals, &status);
+        break;
+    case OPTION_ISOLATE:
+        desc->isolate = (limn_isolate)choose(&isolations, &status);
+        break;
+    case OPTION_FACE_VARYING:
+        desc->face_varying = (limn_face_varying)choose(&face_varyings, &status);
+        break;
+    default: // getopt has said what is wrong
+        fprintf(stderr, "see limn bake --help\n");
+        return LIMNI_EXIT_USAGE;
+    }
+    return status;
 }
 
 static int parse_option(int option, arguments *given) {
     limn_bake_desc *const desc = &given->desc;
-    int chosen = 0, status = LIMNI_EXIT_OK;
     switch (option) {
     case 'o':
         given->output = optarg;
         return LIMNI_EXIT_OK;
-    case OPTION_SCHEME:
-        status = choose(&schemes, LIMN_SCHEME_LOOP, &chosen);
-        desc->scheme = (limn_scheme)chosen;
-        return status;
     case OPTION_TENSION:
         if (limni_parse_real(optarg, -0.25f, 0.25f, &desc->tension)) return LIMNI_EXIT_OK;
         return limni_usage_error("bake", "'%s' is not a tension between -0.25 and 0.25", optarg);
-    case OPTION_WEIGHTS:
-        status = choose(&weights, LIMN_WEIGHTS_LOOP, &chosen);
-        desc->weights = (limn_weights)chosen;
-        return status;
-    case OPTION_BOUNDARY:
-        status = choose(&boundaries, LIMN_BOUNDARY_EDGE_ONLY, &chosen);
-        desc->boundary = (limn_boundary)chosen;
-        return status;
-    case OPTION_CREASES:
-        status = choose(&creases, LIMN_CREASES_OPENSUBDIV, &chosen);
-        desc->creases = (limn_creases)chosen;
-        return status;
-    case OPTION_CREASING:
-        status = choose(&creasings, LIMN_CREASING_UNIFORM, &chosen);
-        desc->creasing = (limn_creasing)chosen;
-        return status;
-    case OPTION_NORMALS:
-        status = choose(&normals, LIMN_NORMALS_NONE, &chosen);
-        desc->normals = (limn_normals)chosen;
-        return status;
-    case OPTION_ISOLATE:
-        status = choose(&isolations, LIMN_ISOLATE_NEVER, &chosen);
-        desc->isolate = (limn_isolate)chosen;
-        return status;
     case OPTION_IMAGES:
         desc->images = true;
         return LIMNI_EXIT_OK;
-    case OPTION_FACE_VARYING:
-        status = choose(&face_varyings, LIMN_FACE_VARYING_NONE, &chosen);
-        desc->face_varying = (limn_face_varying)chosen;
-        return status;
     case OPTION_NO_CHANNELS:
         desc->no_channels = true;
         return LIMNI_EXIT_OK;
     case OPTION_REPAIR:
-        if (!limni_parse_repair(optarg, &given->desc.repair))
+        if (!limni_parse_repair(optarg, &desc->repair))
             return limni_usage_error("bake", "cannot repair '%s'", optarg);
         return LIMNI_EXIT_OK;
     case OPTION_NON_MANIFOLD:
@@ -236,9 +242,8 @@ static int parse_option(int option, arguments *given) {
     case 'h':
         given->help = true;
         return LIMNI_EXIT_OK;
-    default: // getopt has said what is wrong
-        fprintf(stderr, "see limn bake --help\n");
-        return LIMNI_EXIT_USAGE;
+    default:
+        return parse_choice(option, desc);
     }
 }
 

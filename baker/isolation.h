@@ -2,7 +2,7 @@
 /*
  * Isolation: patches that are evaluated in pieces, the faces of the first level of subdivision. A
  * piece has at most one corner that is not regular, so there are as many tables as kinds of
- * vertices, and not as many as triples of them. The class of a face says which four tables its
+ * vertices, and not as many as kinds of faces. The class of a face says which four tables its
  * pieces have, and which of its points are the columns of each.
  */
 #ifndef LIMNI_ISOLATION_H
