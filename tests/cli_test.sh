@@ -542,6 +542,18 @@ says stdout " isolated-bytes=$bytes\""
 notes 'torus32: not isolated: ' bake "$torus" -o alone.limn --isolate auto
 works info --json alone.limn
 expect "points of a mesh that is not isolated" "$(json points)" 16
+# Tables of tens of kilobytes for any mesh without creases, and few more for several.
+tables_below() {
+    limit=$1
+    shift
+    works bake -q "$@" -o small.limn --isolate 1
+    works info --json small.limn
+    [ "$(json table_size)" -le "$limit" ] || fail "$*: tables of $(json table_size) bytes, more than $limit"
+}
+tables_below 65536 "$assets/imp.obj"
+tables_below 65536 "$assets/imp_quads.obj" --scheme catmark
+tables_below 131072 "$assets"/*.obj
+
 # ---- What is not a manifold
 
 notes 'edge.obj: split: 1 edges, sharp now, and 2 vertices, of which 2 are corners now; 4 control points added' \
