@@ -245,21 +245,32 @@ static void check_mesh(subject *s) {
 /// (docs/design.md).
 static double least_coefficient = -0x1p-26;
 
+/// What a row is below 0 in all is never more than the class says, which is what one row is: of the
+/// patch or, in pieces, of one of them. Pairs are two floats each.
+static void check_bound(const limn_file_class *class, double below) {
+    CHECK((double)class->negative >= below - 0x1p-21);
+    CHECK((double)class->negative <= below + 0x1p-21);
+}
+
 static void check_tables(const limn_mesh *mesh) {
     for (uint32_t r = 0; r < mesh->run_count; r++) {
         const limn_file_class *const class = &mesh->classes[mesh->runs[r].class_index];
+        double most_below = 0;
         for (uint32_t row = 0; row < mesh->domain->row_counts[LIMN_LEVEL_MAX]; row++) {
             const column_place place = place_of_row(mesh, r, 0, row);
-            double sum = 0;
+            double sum = 0, below = 0;
             for (uint32_t slot = 0; slot < class->control_count; slot++) {
                 const double coefficient = coefficient_at(&place, slot);
                 CHECK(coefficient >= least_coefficient);
                 sum += coefficient;
+                below -= fmin(coefficient, 0);
             }
+            most_below = fmax(most_below, below);
             // Rounding to float moves each coefficient by at most 2^-24 of itself, and they sum
             // to 1.
             CHECK_NEAR(sum, 1.0, 0x1p-24);
         }
+        check_bound(class, most_below);
     }
 }
 
