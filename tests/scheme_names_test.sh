@@ -7,12 +7,13 @@
 set -eu
 cd "$1"
 
-# Prints the lines of FILE... that name a scheme. "Loop" only as a name, or in names: loops over rows are none.
+# Prints the lines of FILE... that name a scheme. "Loop" only as a name, or in names: loops over rows are none, nor is a
+# clip that starts again.
 names() {
     {
         grep -rniE 'catmull|catmark|clark|butterfly|zorin|warren|lomont|chaikin|doo-?sabin|sqrt-?3|bilinear|opensubdiv' "$@" || true
         grep -rnE '(^|[^A-Za-z])Loop([^A-Za-z]|$)|LOOP|loop_|_loop' "$@" || true
-    } | grep -v '(Lomont, "Fast$' | sort -u # who published the inverse square root
+    } | grep -v -e '(Lomont, "Fast$' -e LIMN_WRAP_LOOP | sort -u # Lomont published the inverse square root
 }
 
 found=$(names runtime simd include/limn/limn.h include/limn/format.h)
