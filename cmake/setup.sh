@@ -75,6 +75,7 @@ sample() {
     say "Baking assets/imp.gltf, which moves"
     $limn bake assets/imp.gltf -o $folder/waving.limn --normals exact --isolate 1
     $view $folder/waving.limn --png $folder/waving.png --clip wave --time 0.25
+    $view $folder/waving.limn --png $folder/waving_uv.png --colour uv
 
     say "Look at these, in $(pwd)/$folder:"
     cat <<END
@@ -87,6 +88,7 @@ imp.limn               the baked file
 imp.txt                what is in it
 mug.png                quads, two octagons and creases, by Catmull-Clark
 waving.png             a moment of the clip "wave" of a skinned imp
+waving_uv.png          its texture coordinates, with their seam
 mug.limn, waving.limn  the baked files
 END
 }

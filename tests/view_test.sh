@@ -152,6 +152,9 @@ for mesh in -1 x 0x "" 4294967296; do
     expect_error 2 "$file" --png "$out" --mesh "$mesh"
 done
 
+draw uv --size 160x120 --colour uv
+draw normals --size 160x120 --colour normals
+expect_different shaded normals
 expect_error 2 "$file" --png "$out" --colour red
 expect_error 2 "$file" --png "$out" --shade round
 expect_error 2 "$file" --png "$out" --light dim

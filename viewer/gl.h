@@ -11,10 +11,12 @@
 
 /// Type and name of each function: X(CLEAR, Clear) is PFNGLCLEARPROC Clear for glClear.
 #define VIEW_GL_FUNCTIONS(X)                                                                       \
+    X(ACTIVETEXTURE, ActiveTexture)                                                                \
     X(ATTACHSHADER, AttachShader)                                                                  \
     X(BINDBUFFER, BindBuffer)                                                                      \
     X(BINDFRAMEBUFFER, BindFramebuffer)                                                            \
     X(BINDRENDERBUFFER, BindRenderbuffer)                                                          \
+    X(BINDTEXTURE, BindTexture)                                                                    \
     X(BINDVERTEXARRAY, BindVertexArray)                                                            \
     X(BLENDFUNC, BlendFunc)                                                                        \
     X(BLITFRAMEBUFFER, BlitFramebuffer)                                                            \
@@ -30,6 +32,7 @@
     X(DELETEPROGRAM, DeleteProgram)                                                                \
     X(DELETERENDERBUFFERS, DeleteRenderbuffers)                                                    \
     X(DELETESHADER, DeleteShader)                                                                  \
+    X(DELETETEXTURES, DeleteTextures)                                                              \
     X(DELETESYNC, DeleteSync)                                                                      \
     X(DELETEVERTEXARRAYS, DeleteVertexArrays)                                                      \
     X(DEPTHFUNC, DepthFunc)                                                                        \
@@ -43,7 +46,9 @@
     X(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer)                                            \
     X(GENBUFFERS, GenBuffers)                                                                      \
     X(GENFRAMEBUFFERS, GenFramebuffers)                                                            \
+    X(GENERATEMIPMAP, GenerateMipmap)                                                              \
     X(GENRENDERBUFFERS, GenRenderbuffers)                                                          \
+    X(GENTEXTURES, GenTextures)                                                                    \
     X(GENVERTEXARRAYS, GenVertexArrays)                                                            \
     X(GETERROR, GetError)                                                                          \
     X(GETINTEGERV, GetIntegerv)                                                                    \
@@ -60,6 +65,8 @@
     X(READPIXELS, ReadPixels)                                                                      \
     X(RENDERBUFFERSTORAGEMULTISAMPLE, RenderbufferStorageMultisample)                              \
     X(SHADERSOURCE, ShaderSource)                                                                  \
+    X(TEXIMAGE3D, TexImage3D)                                                                      \
+    X(TEXPARAMETERI, TexParameteri)                                                                \
     X(UNIFORM1F, Uniform1f)                                                                        \
     X(UNIFORM2F, Uniform2f)                                                                        \
     X(UNIFORM4F, Uniform4f)                                                                        \

@@ -21,9 +21,13 @@ static const char help_text[] =
     "                          next level on its way (morphing); default 4\n"
     "      --size WxH          of the picture, in pixels, up to 8192 each; default 1280x960, or\n"
     "                          with an eye the viewport\n"
-    "      --colour WHAT       clay (default), or levels: of each patch the highest of its edges;\n"
-    "                          0 blue, 1 light blue, 2 green, 3 yellow, 4 orange, and in between\n"
-    "                          while morphing\n"
+    "      --colour WHAT       materials (default): base colours and textures, and clay where "
+    "there\n"
+    "                          are none; clay; uv: a chequered pattern in texture coordinates;\n"
+    "                          normals; or levels: of each patch the highest of its edges, 0 "
+    "blue,\n"
+    "                          1 light blue, 2 green, 3 yellow, 4 orange, and in between while\n"
+    "                          morphing\n"
     "      --shade HOW         smooth (default), or flat: each triangle by its own normal\n"
     "      --light HOW         the runtime's light on vertices, faint from the front, and a spot:\n"
     "                          interpolated or exact (limn_light_mode), or base: all light at the\n"
@@ -81,9 +85,16 @@ static bool parse_mesh(view_picture *picture, const char *text) {
 }
 
 static bool parse_colour(view_picture *picture, const char *text) {
-    picture->level_colours = strcmp(text, "levels") == 0;
-    return picture->level_colours || strcmp(text, "clay") == 0 ||
-           view_fail("--colour '%s': not clay or levels", text);
+    static const char *const names[] = {[VIEW_COLOURS_MATERIALS] = "materials",
+                                        [VIEW_COLOURS_CLAY] = "clay",
+                                        [VIEW_COLOURS_LEVELS] = "levels",
+                                        [VIEW_COLOURS_UV] = "uv",
+                                        [VIEW_COLOURS_NORMALS] = "normals"};
+    for (int colours = VIEW_COLOURS_MATERIALS; colours <= VIEW_COLOURS_NORMALS; colours++) {
+        picture->colours = (view_colours)colours;
+        if (strcmp(text, names[colours]) == 0) return true;
+    }
+    return view_fail("--colour '%s': not materials, clay, levels, uv or normals", text);
 }
 
 static bool parse_shade(view_picture *picture, const char *text) {

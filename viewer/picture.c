@@ -33,7 +33,7 @@ static bool draw(const view_gl *gl, const view_scene *scene, const view_picture 
         .width = target->width,
         .height = target->height,
         .pixel_scale = (float)target->pixel_scale * line_scale(picture),
-        .level_colours = picture->level_colours,
+        .colours = picture->colours,
         .vertex_light = scene->light_mode != VIEW_LIGHT_NONE,
         .flat_shading = picture->flat_shading,
         .wireframe = picture->wireframe,

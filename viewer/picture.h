@@ -5,6 +5,7 @@
 
 #include "frame_options.h"
 #include "light.h"
+#include "renderer.h"
 
 typedef struct view_picture {
     const char *limn_path;
@@ -13,7 +14,7 @@ typedef struct view_picture {
     uint32_t width, height;
     view_light light;
     long mesh_index; ///< or VIEW_ALL_MESHES
-    bool level_colours;
+    view_colours colours;
     bool flat_shading;
     bool wireframe;
     bool control_mesh;

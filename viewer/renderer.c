@@ -31,6 +31,7 @@ struct view_renderer {
     GLuint background, shaded, wireframe, lines, points; ///< programs
     GLuint empty_layout;
     geometry templates[LIMN_DOMAIN_COUNT];
+    GLuint albedo;        ///< a texture array: layers are materials
     view_stream vertices; ///< of view_vertex, written by the caller
     view_stream draws;    ///< of limn_draw, as commands
     view_stream controls; ///< of float[3], for the overlay
@@ -114,6 +115,19 @@ static bool create_arguments(drawable *target) {
     return target->index_counts && target->index_offsets && target->base_vertices;
 }
 
+static void create_albedo(view_renderer *renderer, const view_albedo *albedo) {
+    const view_gl *const gl = renderer->gl;
+    if (!albedo->texels) return;
+    gl->GenTextures(1, &renderer->albedo);
+    gl->ActiveTexture(GL_TEXTURE0);
+    gl->BindTexture(GL_TEXTURE_2D_ARRAY, renderer->albedo);
+    gl->TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_SRGB8_ALPHA8, (GLsizei)albedo->width,
+                   (GLsizei)albedo->height, (GLsizei)albedo->layer_count, 0, GL_RGBA,
+                   GL_UNSIGNED_BYTE, albedo->texels);
+    gl->TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    gl->GenerateMipmap(GL_TEXTURE_2D_ARRAY);
+}
+
 static bool create_drawables(view_renderer *renderer, const view_scene *scene) {
     renderer->drawables = calloc((size_t)scene->surface_count + 1, sizeof *renderer->drawables);
     if (!renderer->drawables) return view_fail("out of memory");
@@ -145,6 +159,7 @@ view_renderer *view_renderer_create(const view_gl *gl, const view_scene *scene) 
     renderer->draws = view_stream_make(gl, sizeof(limn_draw));
     renderer->controls = view_stream_make(gl, sizeof(float[3]));
     gl->GenVertexArrays(1, &renderer->empty_layout);
+    create_albedo(renderer, &scene->albedo);
     if (!create_programs(renderer) || !create_drawables(renderer, scene)) {
         view_renderer_destroy(renderer);
         return NULL;
@@ -164,8 +179,7 @@ static void use_program(const view_gl *gl, GLuint program, const view_frame *fra
     gl->Uniform2f(gl->GetUniformLocation(program, "viewport"), (float)frame->width,
                   (float)frame->height);
     gl->Uniform1f(gl->GetUniformLocation(program, "pixel_scale"), frame->pixel_scale);
-    gl->Uniform1f(gl->GetUniformLocation(program, "level_colours"), frame->level_colours);
-    gl->Uniform1f(gl->GetUniformLocation(program, "normal_colours"), frame->normal_colours);
+    gl->Uniform1f(gl->GetUniformLocation(program, "colours"), (float)frame->colours);
 }
 
 static void draw_background(const view_renderer *renderer, const view_frame *frame) {
@@ -189,6 +203,8 @@ static void set_surface_layout(const view_renderer *renderer, limn_domain_kind d
     set_floats(gl, 3, 1, sizeof(view_vertex), at + offsetof(view_vertex, level));
     set_bytes(gl, 2, GL_FALSE, at + offsetof(view_vertex, borders));
     set_bytes(gl, 4, GL_TRUE, at + offsetof(view_vertex, light));
+    set_floats(gl, 5, 2, sizeof(view_vertex), at + offsetof(view_vertex, uv));
+    set_bytes(gl, 6, GL_FALSE, at + offsetof(view_vertex, material));
 }
 
 /// A draw among those of all surfaces. Not sewn, its edges are as fine as itself.
@@ -406,6 +422,7 @@ void view_renderer_destroy(view_renderer *renderer) {
                                renderer->lines, renderer->points};
     for (size_t i = 0; i < sizeof programs / sizeof *programs; i++)
         gl->DeleteProgram(programs[i]);
+    gl->DeleteTextures(1, &renderer->albedo);
     gl->DeleteVertexArrays(1, &renderer->empty_layout);
     for (int d = 0; d < LIMN_DOMAIN_COUNT; d++)
         delete_geometry(gl, &renderer->templates[d]);

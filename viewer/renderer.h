@@ -9,15 +9,23 @@
 
 typedef struct view_renderer view_renderer;
 
+/// What surfaces are coloured by. The shader knows them by number.
+typedef enum view_colours {
+    VIEW_COLOURS_MATERIALS, ///< and clay where there are none
+    VIEW_COLOURS_CLAY,
+    VIEW_COLOURS_LEVELS,
+    VIEW_COLOURS_UV,     ///< a chequered pattern in texture coordinates
+    VIEW_COLOURS_NORMALS ///< and no light
+} view_colours;
+
 /// One picture.
 typedef struct view_frame {
     view_camera camera;
     uint32_t width, height; ///< of the framebuffer, which must encode sRGB
     float pixel_scale;      ///< framebuffer pixels per pixel of line width
-    bool level_colours;     ///< instead of clay
-    bool normal_colours;    ///< normals as colours, and no light
-    bool vertex_light;      ///< that of the vertices, instead of the shader's own
-    bool flat_shading;      ///< a normal for each triangle
+    view_colours colours;
+    bool vertex_light; ///< that of the vertices, instead of the shader's own
+    bool flat_shading; ///< a normal for each triangle
     bool wireframe;
     bool control_mesh;
     bool unsewn; ///< patches are not sewn to coarser neighbours: cracks show

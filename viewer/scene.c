@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "scene.h"
 
+#include "limn/character.h"
 #include "normals.h"
 #include "report.h"
 #include <stdlib.h>
@@ -21,19 +22,28 @@ static uint8_t border_steps(const limn_domain *domain, uint32_t edge, limn_row r
     return (uint8_t)((dx * (row.j - from.j) - dy * (row.i - from.i)) / LIMN_GRID_SIZE);
 }
 
-void view_vertices_describe(const limn_plan *plan, uint32_t begin, uint32_t end,
+void view_vertices_describe(const view_surface *surface, uint32_t begin, uint32_t end,
                             view_vertex *vertices) {
+    const limn_plan *const plan = &surface->plan;
     const limn_domain *const domain = plan->mesh->domain;
     for (uint32_t p = begin; p < end; p++) {
         const limn_plan_patch *const patch = &plan->patches[p];
         const float level = patch->level > 0 ? (float)(patch->level - 1) + patch->morph : 0;
+        const uint8_t material =
+            surface->materials ? surface->materials[patch->patch] : VIEW_ALBEDO_NONE;
         for (uint32_t row = 0; row < domain->row_counts[patch->level]; row++) {
             view_vertex *const vertex = &vertices[patch->first_vertex + row];
             vertex->level = level;
+            vertex->material = material;
             for (uint32_t edge = 0; edge < sizeof vertex->borders; edge++)
                 vertex->borders[edge] = border_steps(domain, edge, domain->rows[row]);
         }
     }
+    if (surface->has_uv)
+        limn_evaluate_channel(plan, &surface->uv, surface->uv.mesh.controls, begin, end,
+                              &(limn_value_output){.values = vertices->uv,
+                                                   .stride = sizeof(view_vertex),
+                                                   .format = LIMN_VALUE_FLOAT2});
 }
 
 static void find_corner_weights(const limn_domain *domain, limn_row row, float weights[4]) {
@@ -102,7 +112,7 @@ static bool evaluate_surface(const view_scene *scene, view_surface *surface) {
     surface->vertices = calloc((size_t)plan->vertex_count + 1, sizeof *surface->vertices);
     if (!surface->vertices) return view_fail("out of memory for mesh '%s'", mesh->name);
 
-    view_vertices_describe(plan, 0, plan->patch_count, surface->vertices);
+    view_vertices_describe(surface, 0, plan->patch_count, surface->vertices);
     return evaluate_vertices(scene, plan, templates->indices, surface->vertices) ||
            view_fail("out of memory for mesh '%s'", mesh->name);
 }
@@ -130,6 +140,34 @@ static bool list_templates(const limn_domain *domain, view_templates *templates)
     return true;
 }
 
+/// Channel `number` of those that are texture coordinates.
+static void find_uv(const limn_pack *pack, uint32_t number, view_surface *surface) {
+    for (uint32_t c = 0; c < surface->mesh.channel_count; c++) {
+        surface->uv = limn_mesh_channel(pack, &surface->mesh, c);
+        surface->has_uv = surface->uv.kind == LIMN_CHANNEL_UV && number-- == 0;
+        if (surface->has_uv) return;
+    }
+}
+
+static bool find_materials(const limn_pack *pack, uint32_t mesh_index, view_surface *surface) {
+    const uint32_t count = limn_mesh_material_range_count(pack, mesh_index);
+    uint32_t uv_number = 0;
+    if (count > 0) {
+        surface->materials = malloc((size_t)surface->mesh.patch_count + 1);
+        if (!surface->materials)
+            return view_fail("out of memory for mesh '%s'", surface->mesh.name);
+    }
+    for (uint32_t r = 0; r < count; r++) {
+        const limn_material_range range = limn_mesh_material_range(pack, mesh_index, r);
+        const bool shown = range.material < VIEW_ALBEDO_LAYERS;
+        memset(surface->materials + range.first_patch,
+               shown ? (int)range.material : VIEW_ALBEDO_NONE, range.patch_count);
+        if (r == 0 && shown) uv_number = limn_pack_material(pack, range.material).texture_channel;
+    }
+    find_uv(pack, uv_number, surface);
+    return true;
+}
+
 static bool open_meshes(view_scene *scene, limni_frame_options options, const view_light *light,
                         uint32_t first, uint32_t count) {
     if (!limni_moment_make(&scene->moment, &scene->pack, first, count, &options))
@@ -140,13 +178,16 @@ static bool open_meshes(view_scene *scene, limni_frame_options options, const vi
     scene->light_mode = light->mode;
     if (light->mode != VIEW_LIGHT_NONE && !view_lamps_make(&scene->lamps, light, &bounds))
         return false;
+    if (!view_albedo_make(&scene->albedo, &scene->pack)) return false;
     scene->surfaces = calloc((size_t)count + 1, sizeof *scene->surfaces);
     if (!scene->surfaces) return view_fail("out of memory for %u meshes", count);
     for (uint32_t i = 0; i < count; i++) {
         scene->surface_count = i + 1;
         scene->surfaces[i].mesh = scene->moment.meshes[i].mesh;
         const limn_domain *const domain = scene->surfaces[i].mesh.domain;
-        if (!list_templates(domain, &scene->templates[domain->kind])) return false;
+        if (!list_templates(domain, &scene->templates[domain->kind]) ||
+            !find_materials(&scene->pack, first + i, &scene->surfaces[i]))
+            return false;
         if (!view_control_mesh_find(&scene->surfaces[i].control_mesh, &scene->surfaces[i].mesh))
             return view_fail("out of memory for mesh '%s'", scene->surfaces[i].mesh.name);
     }
@@ -175,10 +216,12 @@ void view_scene_close(view_scene *scene) {
     for (uint32_t i = 0; i < scene->surface_count; i++) {
         free(scene->surfaces[i].vertices);
         free(scene->surfaces[i].plan_memory);
+        free(scene->surfaces[i].materials);
         view_control_mesh_free(&scene->surfaces[i].control_mesh);
     }
     free(scene->surfaces);
     limni_moment_free(&scene->moment);
+    view_albedo_free(&scene->albedo);
     for (int domain = 0; domain < LIMN_DOMAIN_COUNT; domain++) {
         free(scene->templates[domain].indices);
         free(scene->templates[domain].templates);

@@ -3,6 +3,7 @@
 #ifndef VIEW_SCENE_H
 #define VIEW_SCENE_H
 
+#include "albedo.h"
 #include "blob_file.h"
 #include "camera.h"
 #include "control_mesh.h"
@@ -18,6 +19,9 @@ typedef struct view_vertex {
     float level;        ///< of the patch, a real number
     uint8_t borders[4]; ///< grid steps, at most 16, from each edge of the patch; 255: no such edge
     uint8_t light[4];   ///< where there are lamps: red, green, blue
+    float uv[2];        ///< texture coordinates; 0 where the mesh has none
+    uint8_t material;   ///< the layer of its albedo, or VIEW_ALBEDO_NONE
+    uint8_t reserved[3];
 } view_vertex;
 
 /// The index templates of a domain; empty unless a surface has it.
@@ -36,6 +40,9 @@ typedef struct view_surface {
     view_vertex *vertices; ///< [plan.vertex_count]; NULL where they go to the GPU at once
     bool faceted;          ///< vertices have no normals
     view_control_mesh control_mesh;
+    limn_channel uv; ///< where has_uv: the texture coordinates of its first material
+    bool has_uv;
+    uint8_t *materials; ///< [patch_count] VIEW_ALBEDO_NONE or a layer; NULL: nothing is said
 } view_surface;
 
 typedef struct view_scene {
@@ -44,7 +51,8 @@ typedef struct view_scene {
     limni_moment moment;
     limni_frame frame;
     view_light_mode light_mode;
-    view_lamps lamps;                            ///< unless that is VIEW_LIGHT_NONE
+    view_lamps lamps; ///< unless that is VIEW_LIGHT_NONE
+    view_albedo albedo;
     view_templates templates[LIMN_DOMAIN_COUNT]; ///< of the domains that surfaces have
     view_surface *surfaces;
     uint32_t surface_count;
@@ -63,8 +71,9 @@ void view_scene_close(view_scene *scene);
 /// Plans and evaluates a frame of all surfaces in memory. Reports why and returns false on failure.
 bool view_scene_evaluate(view_scene *scene);
 
-/// Writes what vertices of patches [begin, end) of a plan have besides positions and normals.
-void view_vertices_describe(const limn_plan *plan, uint32_t begin, uint32_t end,
+/// Writes what vertices of patches [begin, end) of the plan of a surface have besides positions and
+/// normals.
+void view_vertices_describe(const view_surface *surface, uint32_t begin, uint32_t end,
                             view_vertex *vertices);
 
 /// A camera that sees all surfaces at their finest level, whatever level the scene has, so that
