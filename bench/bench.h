@@ -16,6 +16,7 @@ extern "C" {
 
 int bench_bake(int argc, char **argv);
 int bench_dolly(int argc, char **argv);
+int bench_frame_times(int argc, char **argv);
 int bench_isolation(int argc, char **argv);
 int bench_kernels(int argc, char **argv);
 int bench_light(int argc, char **argv);

@@ -13,6 +13,7 @@ static const struct {
     {"bake", bench_bake,
      "time to bake, peak memory, and stored bytes beside OpenSubdiv's stencils"},
     {"dolly", bench_dolly, "how far levels of detail move the surface, frame by frame, as CSV"},
+    {"frame", bench_frame_times, "time of the frames of a scene, stage by stage"},
     {"isolation", bench_isolation, "bytes and time per face of isolated meshes beside dense ones"},
     {"kernels", bench_kernels,
      "time per patch of every kernel, and its share of what this core can do at most"},

@@ -2,6 +2,7 @@
 #include "mixes.h"
 
 #include "bench.h"
+#include "terrain.h"
 #include "torus.h"
 
 #include "limn/format.h"
@@ -56,6 +57,12 @@ limn_baker *bench_baker(bench_way way) {
                                                .note = bench_note});
 }
 
+static bool bake_mesh(bench_mix *mix, const limn_bake_mesh *mesh, bench_way way) {
+    mix->baker = bench_baker(way);
+    return bake_mix(mix, mesh->name,
+                    mix->baker ? limn_baker_add_mesh(mix->baker, mesh) : LIMN_BAKE_MEMORY);
+}
+
 static bool bake_torus(bench_mix *mix, const char *name, const bench_torus *t, bench_way way) {
     const limn_bake_mesh mesh = {.name = name,
                                  .positions = t->positions,
@@ -63,9 +70,7 @@ static bool bake_torus(bench_mix *mix, const char *name, const bench_torus *t, b
                                  .face_count = t->face_count,
                                  .face_sizes = t->face_sizes,
                                  .face_indices = t->corners};
-    mix->baker = bench_baker(way);
-    return bake_mix(mix, name,
-                    mix->baker ? limn_baker_add_mesh(mix->baker, &mesh) : LIMN_BAKE_MEMORY);
+    return bake_mesh(mix, &mesh, way);
 }
 
 static uint32_t face_size_of(limn_scheme scheme) {
@@ -94,6 +99,23 @@ bool bench_mix_worst(bench_mix *mix, uint32_t side, bench_way way) {
         good = bake_torus(mix, "worst", &t, way);
     }
     bench_torus_destroy(&t);
+    return good;
+}
+
+bool bench_mix_terrain(bench_mix *mix, uint32_t side, bench_way way) {
+    bench_terrain t;
+    *mix = (bench_mix){0};
+    bool good = bench_terrain_create(&t, side, face_size_of(way.scheme));
+    if (good) {
+        const limn_bake_mesh mesh = {.name = "terrain",
+                                     .positions = t.positions,
+                                     .position_count = t.point_count,
+                                     .face_count = t.face_count,
+                                     .face_sizes = t.face_sizes,
+                                     .face_indices = t.corners};
+        good = bake_mesh(mix, &mesh, way);
+    }
+    bench_terrain_destroy(&t);
     return good;
 }
 

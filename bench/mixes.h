@@ -38,6 +38,9 @@ bool bench_mix_worst(bench_mix *mix, uint32_t side, bench_way way);
 /// The faces of either.
 uint32_t bench_mix_torus_faces(uint32_t side, limn_scheme scheme);
 
+/// Hills of `side` by `side` squares, see terrain.h.
+bool bench_mix_terrain(bench_mix *mix, uint32_t side, bench_way way);
+
 /// A mesh that is baked first, or the first one of a .limn file, as it was baked.
 bool bench_mix_file(bench_mix *mix, const char *path, bench_way way);
 

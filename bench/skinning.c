@@ -3,8 +3,8 @@
 #include "arguments.h"
 #include "bench.h"
 #include "mixes.h"
+#include "rig.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -125,40 +125,6 @@ enum { STEP_COUNT = sizeof steps / sizeof *steps };
 // -------------------------------------------------------------------------------------------------
 // Characters
 
-static float random_float(uint64_t *state) {
-    return (float)bench_random(state, 1 << 20) / (1 << 20);
-}
-
-static bool attach(limn_skin *skin, const character *c, uint32_t influences) {
-    const uint32_t count = c->mix.mesh.control_count;
-    uint16_t *const joints = malloc((size_t)count * influences * sizeof *joints);
-    float *const weights = malloc((size_t)count * influences * sizeof *weights);
-    uint64_t state = 1;
-    *skin = (limn_skin){count, JOINT_COUNT, influences, joints, weights, c->mix.mesh.kernels};
-    if (!joints || !weights) return false;
-    for (size_t i = 0; i < (size_t)count * influences; i++) {
-        const uint32_t first = (uint32_t)(i / influences * (JOINT_COUNT - 9) / count);
-        joints[i] = (uint16_t)(first + bench_random(&state, 9));
-        weights[i] = random_float(&state) + 0.01f;
-    }
-    return limn_skin_normalise(count, influences, joints, weights, NULL) == LIMN_OK;
-}
-
-/// Rotations around one axis each, and a little way.
-static void make_matrices(character *c) {
-    uint64_t state = 7;
-    for (int j = 0; j < JOINT_COUNT; j++) {
-        const float angle = random_float(&state), s = sinf(angle), cosine = cosf(angle);
-        const int a = j % 3, b = (j + 1) % 3;
-        float *const m = c->matrices + 12 * j;
-        for (int i = 0; i < 12; i++)
-            m[i] = i % 5 == 0 ? 1.0f : i % 4 == 3 ? 0.1f * random_float(&state) : 0.0f;
-        m[4 * a + a] = m[4 * b + b] = cosine;
-        m[4 * b + a] = s, m[4 * a + b] = -s;
-    }
-    limn_dual_quaternions_make(c->matrices, JOINT_COUNT, c->quaternions);
-}
-
 static bool make_targets(character *c) {
     const uint32_t points = c->mix.mesh.control_count;
     const uint32_t moved = (points + TARGET_PART - 1) / TARGET_PART;
@@ -192,20 +158,19 @@ static bool create_character(character *c, const char *path, uint32_t isa) {
     c->vertices = malloc(mesh->domain->row_counts[LIMN_LEVEL_MAX] * sizeof(float[6]));
     bool good = c->controls && c->normals && c->vertices && make_targets(c);
     for (uint32_t s = 0; s < 4 && good; s++)
-        good = attach(&c->skins[s], c, 1u << s);
+        good = bench_rig_attach(&c->skins[s], mesh, JOINT_COUNT, 1u << s);
     if (!good) return false;
     memcpy(c->controls, mesh->controls, mesh->point_count * sizeof(float[3]));
     memcpy(c->normals, c->mix.control_normals, mesh->normal_count * sizeof(float[3]));
-    make_matrices(c);
+    bench_rig_wobble(mesh, JOINT_COUNT, 1, c->matrices);
+    limn_dual_quaternions_make(c->matrices, JOINT_COUNT, c->quaternions);
     return true;
 }
 
-/// The arrays of skins and targets are this file's own.
+/// The arrays of targets are this file's own.
 static void destroy_character(character *c) {
-    for (int s = 0; s < 4; s++) {
-        free((void *)(uintptr_t)c->skins[s].joints);
-        free((void *)(uintptr_t)c->skins[s].weights);
-    }
+    for (int s = 0; s < 4; s++)
+        bench_rig_free(&c->skins[s]);
     free((void *)(uintptr_t)c->targets.first);
     free((void *)(uintptr_t)c->targets.points);
     free((void *)(uintptr_t)c->targets.deltas);
