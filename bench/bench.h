@@ -37,6 +37,9 @@ uint32_t bench_random(uint64_t *state, uint32_t bound);
 /// The median; reorders the values.
 double bench_median(double *values, uint32_t count);
 
+/// The value that a share of all values does not exceed, by the nearest rank; orders the values.
+double bench_percentile(double *values, uint32_t count, double share);
+
 /// A file for results, opened before they are measured and renamed when they are complete. Without
 /// a path there is none, and no stream. Both say what went wrong.
 ///

@@ -3,6 +3,7 @@
 
 #include "limn/limn.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,6 +36,12 @@ uint32_t bench_random(uint64_t *state, uint32_t bound) {
 double bench_median(double *values, uint32_t count) {
     qsort(values, count, sizeof *values, compare_doubles);
     return count % 2 ? values[count / 2] : (values[count / 2 - 1] + values[count / 2]) / 2;
+}
+
+double bench_percentile(double *values, uint32_t count, double share) {
+    qsort(values, count, sizeof *values, compare_doubles);
+    const uint32_t rank = (uint32_t)ceil(share * count);
+    return values[rank > 0 ? rank - 1 : 0];
 }
 
 bool bench_results_open(limni_output_file *file, const char *path) {

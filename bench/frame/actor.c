@@ -39,7 +39,7 @@ static bool find_motion(frame_actor *actor, const frame_script *script) {
 }
 
 static bool open_mesh(frame_actor *actor, const frame_script *script) {
-    const bench_way way = {.scheme = script->scheme};
+    const bench_way way = {.scheme = script->scheme, .isolate = script->isolate};
     if (!script->mesh[0]) return bench_mix_terrain(&actor->mix, script->terrain_side, way);
     if (!bench_mix_file(&actor->mix, script->mesh, way)) return false;
     if (actor->mix.mesh.normals) return true;

@@ -29,6 +29,7 @@ static const char help[] =
     "  --clip NAME    in place of the scene's\n"
     "  --count N      characters, in place of the scene's\n"
     "  --lod WAY:N    in place of the scene's: error:PX, length:PX or uniform:LEVEL\n"
+    "  --isolate N    1: bake with small tables, in place of the scene's\n"
     "  --frames N     of the camera's path (default 120), 60 a second for what moves\n"
     "  --rounds N     times that the path is gone (default 3)\n"
     "  --quick        8 frames, 1 round\n"
@@ -60,7 +61,7 @@ static const char help[] =
 enum { FRAMES_MAX = 10000, ROUNDS_MAX = 1000, THREADS_MAX = 64 };
 
 typedef struct options {
-    const char *scene, *mesh, *clip, *lod, *clock;
+    const char *scene, *mesh, *clip, *lod, *isolate, *clock;
     const char *json, *csv, *html;
     uint32_t count; ///< 0: the scene's
     frame_length length;
@@ -119,6 +120,8 @@ static bool parse_option(int option, void *parsed) {
         return take(&to->clip);
     case 'l':
         return take(&to->lod);
+    case 'I':
+        return take(&to->isolate);
     case 'j':
         return take(&to->json);
     case 'c':
@@ -157,6 +160,8 @@ static bool read_script(frame_script *script, const options *o) {
         (size_t)snprintf(script->clip, sizeof script->clip, "%s", o->clip) >= sizeof script->clip)
         return refuse("clip", o->clip);
     if (o->lod && !override_lod(script, o->lod)) return refuse("lod", o->lod);
+    if (o->isolate && !frame_script_set_isolate(script, o->isolate))
+        return refuse("isolate", o->isolate);
     if (o->count) script->count = o->count;
     return true;
 }
@@ -195,7 +200,13 @@ static bool report(const frame_result *result, const files *f) {
 static bool add_ways(frame_ways *ways, const frame_host *host, const options *o) {
     if (!frame_ways_add_limn(ways, host, false)) return false;
     if (!o->peers) return true;
-    return frame_ways_add_limn(ways, host, true);
+    bool good = frame_ways_add_limn(ways, host, true) && frame_ways_add_skinned(ways, host, false);
+    if (host->script->lod.lod != LIMN_LOD_UNIFORM)
+        good = good && frame_ways_add_skinned(ways, host, true);
+#ifdef BENCH_WITH_OPENSUBDIV
+    good = good && frame_ways_add_peers(ways, host);
+#endif
+    return good;
 }
 
 static bool measure(const frame_host *host, const frame_ways *ways, const options *o,
@@ -235,17 +246,27 @@ static bool run_script(const frame_script *script, const options *o, const files
 }
 
 int bench_frame_times(int argc, char **argv) {
-    static const struct option names[] = {
-        {"scene", required_argument, NULL, 's'},  {"mesh", required_argument, NULL, 'm'},
-        {"clip", required_argument, NULL, 'p'},   {"count", required_argument, NULL, 'n'},
-        {"lod", required_argument, NULL, 'l'},    {"frames", required_argument, NULL, 'f'},
-        {"rounds", required_argument, NULL, 'r'}, {"quick", no_argument, NULL, 'q'},
-        {"budget", required_argument, NULL, 'b'}, {"threads", required_argument, NULL, 't'},
-        {"isa", required_argument, NULL, 'i'},    {"family", required_argument, NULL, 'y'},
-        {"clock", required_argument, NULL, 'k'},  {"peers", no_argument, NULL, 'o'},
-        {"find-crowd", no_argument, NULL, 'F'},   {"json", required_argument, NULL, 'j'},
-        {"csv", required_argument, NULL, 'c'},    {"html", required_argument, NULL, 'w'},
-        {"help", no_argument, NULL, 'h'},         {0}};
+    static const struct option names[] = {{"scene", required_argument, NULL, 's'},
+                                          {"mesh", required_argument, NULL, 'm'},
+                                          {"clip", required_argument, NULL, 'p'},
+                                          {"count", required_argument, NULL, 'n'},
+                                          {"lod", required_argument, NULL, 'l'},
+                                          {"isolate", required_argument, NULL, 'I'},
+                                          {"frames", required_argument, NULL, 'f'},
+                                          {"rounds", required_argument, NULL, 'r'},
+                                          {"quick", no_argument, NULL, 'q'},
+                                          {"budget", required_argument, NULL, 'b'},
+                                          {"threads", required_argument, NULL, 't'},
+                                          {"isa", required_argument, NULL, 'i'},
+                                          {"family", required_argument, NULL, 'y'},
+                                          {"clock", required_argument, NULL, 'k'},
+                                          {"peers", no_argument, NULL, 'o'},
+                                          {"find-crowd", no_argument, NULL, 'F'},
+                                          {"json", required_argument, NULL, 'j'},
+                                          {"csv", required_argument, NULL, 'c'},
+                                          {"html", required_argument, NULL, 'w'},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {0}};
     static frame_script script;
     options o = {.scene = "crowd",
                  .clock = "wall",

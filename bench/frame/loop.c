@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "loop.h"
 
+#include "../bench.h"
 #include "../peers/allocate.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static frame_record make_frame(const frame_host *host, const frame_way *way, frame_crowd *crowd,
                                uint32_t frame, uint32_t frame_count) {
@@ -44,27 +43,17 @@ void frame_loop_run(const frame_host *host, const frame_ways *ways, uint32_t cou
     frame_crowd_destroy(&crowd);
 }
 
-static int compare_doubles(const void *a, const void *b) {
-    const double left = *(const double *)a, right = *(const double *)b;
-    return (left > right) - (left < right);
-}
-
-static double rank(const double *sorted, uint32_t count, double share) {
-    const uint32_t index = (uint32_t)ceil(share * count);
-    return sorted[index > 0 ? index - 1 : 0];
-}
-
-frame_times frame_times_of(double *values, uint32_t count) {
-    qsort(values, count, sizeof *values, compare_doubles);
-    return (frame_times){rank(values, count, 0.50), rank(values, count, 0.95),
-                         rank(values, count, 0.99), values[count - 1]};
+static frame_times find_times(double *values, uint32_t count) {
+    return (frame_times){bench_percentile(values, count, 0.50),
+                         bench_percentile(values, count, 0.95),
+                         bench_percentile(values, count, 0.99), values[count - 1]};
 }
 
 frame_times frame_stage_times(const frame_record *records, uint32_t count, int stage) {
     double *const values = bench_allocate(count, sizeof *values);
     for (uint32_t r = 0; r < count; r++)
         values[r] = stage == FRAME_STAGE_COUNT ? records[r].total : records[r].seconds[stage];
-    const frame_times times = frame_times_of(values, count);
+    const frame_times times = find_times(values, count);
     free(values);
     return times;
 }

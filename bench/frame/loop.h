@@ -17,13 +17,10 @@ typedef struct frame_length {
 void frame_loop_run(const frame_host *host, const frame_ways *ways, uint32_t count,
                     frame_length length, frame_record *records);
 
-/// What a way took: seconds.
+/// What a way took: percentiles by the nearest rank, seconds.
 typedef struct frame_times {
     double p50, p95, p99, max;
 } frame_times;
-
-/// Percentiles by the nearest rank; reorders the values.
-frame_times frame_times_of(double *values, uint32_t count);
 
 /// The share of the frames that are longer than `seconds`.
 double frame_share_over(const frame_record *records, uint32_t count, double seconds);

@@ -65,6 +65,17 @@ static bool read_scheme(frame_script *script, const line *at) {
     return bench_parse_scheme(at->words[1], &script->scheme);
 }
 
+bool frame_script_set_isolate(frame_script *script, const char *number) {
+    uint32_t on;
+    if (!bench_parse_range(number, 0, 1, &on)) return false;
+    script->isolate = on ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER;
+    return true;
+}
+
+static bool read_isolate(frame_script *script, const line *at) {
+    return frame_script_set_isolate(script, at->words[1]);
+}
+
 static bool read_clip(frame_script *script, const line *at) {
     return copy_word(script->clip, sizeof script->clip, at->words[1]);
 }

@@ -14,6 +14,7 @@ enum { FRAME_KEY_MAX = 64, FRAME_LIGHT_MAX = 8, FRAME_COUNT_MAX = 65536 };
 #define FRAME_SCRIPT_LINES(X)                                                                      \
     X(mesh, 1, 2, "FILE | terrain SIDE", "beside the scene; or made-up hills")                     \
     X(scheme, 1, 1, "loop | catmark", "to bake with (default loop)")                               \
+    X(isolate, 1, 1, "0 | 1", "1: with small tables")                                              \
     X(clip, 1, 1, "NAME", "of the mesh's file; default the first, or a made-up wobble")            \
     X(still, 0, 0, "", "nothing moves but the camera")                                             \
     X(count, 1, 1, "N", "characters (default 1, at the origin)")                                   \
@@ -52,6 +53,7 @@ typedef struct frame_script {
     char mesh[1024];       ///< a path; "": terrain
     uint32_t terrain_side; ///< squares
     limn_scheme scheme;
+    limn_isolate isolate;
     char clip[64]; ///< "": the first
     bool still;
     uint32_t count;
@@ -74,5 +76,8 @@ bool frame_script_read(frame_script *script, const char *name);
 
 /// Chooses levels in another way: "error", "length" or "uniform" and a number. False: neither.
 bool frame_script_set_lod(frame_script *script, const char *kind, const char *number);
+
+/// "0" or "1". False: neither.
+bool frame_script_set_isolate(frame_script *script, const char *number);
 
 #endif

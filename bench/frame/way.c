@@ -31,6 +31,19 @@ uint32_t frame_host_threads(const frame_host *host) {
     return host->threads ? team_size(host->threads) : 1;
 }
 
+frame_pose_memory *frame_host_create_poses(const frame_host *host) {
+    frame_pose_memory *const poses = bench_allocate(frame_host_threads(host), sizeof *poses);
+    for (uint32_t t = 0; t < frame_host_threads(host); t++)
+        poses[t] = frame_pose_memory_create(host->actor);
+    return poses;
+}
+
+void frame_host_free_poses(const frame_host *host, frame_pose_memory *poses) {
+    for (uint32_t t = 0; t < frame_host_threads(host); t++)
+        frame_pose_memory_destroy(&poses[t]);
+    free(poses);
+}
+
 void frame_buffer_reserve(frame_buffer *buffer, size_t size) {
     if (size <= buffer->size) return;
     free(buffer->bytes);

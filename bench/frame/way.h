@@ -71,6 +71,16 @@ void frame_ways_destroy(frame_ways *ways);
 /// positions and normals as floats.
 bool frame_ways_add_limn(frame_ways *ways, const frame_host *host, bool plain);
 
+/// Skinned meshes, of the finest level or of all. False after a message, here and below.
+bool frame_ways_add_skinned(frame_ways *ways, const frame_host *host, bool discrete);
+
+/// OpenSubdiv's stencils, and its Bfr surfaces.
+bool frame_ways_add_peers(frame_ways *ways, const frame_host *host);
+
+/// Memory for poses, one for each thread.
+frame_pose_memory *frame_host_create_poses(const frame_host *host);
+void frame_host_free_poses(const frame_host *host, frame_pose_memory *poses);
+
 /// Does all parts of a step, in all threads.
 void frame_host_run(const frame_host *host, team_work *work, void *state);
 uint32_t frame_host_threads(const frame_host *host);

@@ -252,9 +252,7 @@ static void set_crowd(void *state_, frame_crowd *crowd) {
 static void destroy(void *state_) {
     state *const self = state_;
     free_bodies(self);
-    for (uint32_t t = 0; t < frame_host_threads(&self->host); t++)
-        frame_pose_memory_destroy(&self->poses[t]);
-    free(self->poses);
+    frame_host_free_poses(&self->host, self->poses);
     free(self->templates);
     free(self->output.bytes);
     free(self);
@@ -277,9 +275,7 @@ bool frame_ways_add_limn(frame_ways *ways, const frame_host *host, bool plain) {
     self->splits = self->scene.packed || self->scene.lit;
     self->templates = bench_allocate(limn_template_count(mesh->domain), sizeof *self->templates);
     limn_templates_write(mesh->domain, LIMN_TOPOLOGY_TRIANGLES, 2, NULL, self->templates);
-    self->poses = bench_allocate(frame_host_threads(host), sizeof *self->poses);
-    for (uint32_t t = 0; t < frame_host_threads(host); t++)
-        self->poses[t] = frame_pose_memory_create(host->actor);
+    self->poses = frame_host_create_poses(host);
     make_box(self);
     *frame_ways_append(ways) = (frame_way){
         .name = plain ? "limn, floats" : "limn",

@@ -44,6 +44,10 @@ typedef struct peer {
     /// The position of a row of a patch in the last frame: three floats, `axis_stride` apart.
     const float *(*position)(const void *state, uint32_t patch, uint32_t row);
     uint32_t axis_stride; ///< 0 means 1
+    /// The control points of the next frame, [control_count][control_size], of which three are
+    /// coordinates; NULL: those of the scene, always.
+    float *controls;
+    uint32_t control_size;
     void (*destroy)(void *state);
 } peer;
 
@@ -80,6 +84,11 @@ bool peers_add_loop(peer_list *list, const peer_scene *scene);
 bool peers_add_catmark(peer_list *list, const peer_scene *scene);
 /// Last: it takes the bind pose from the first of the list.
 bool peers_add_dense(peer_list *list, const peer_scene *scene);
+
+/// Appends peers that share what they have prepared and have control points of their own, for as many
+/// threads: with derivatives, of stencils at the unique points, or of Bfr. False after a message.
+typedef bool peers_add_copies(peer_list *list, const peer_scene *scene, uint32_t count);
+peers_add_copies peers_add_stencil_copies, peers_add_bfr_copies;
 
 #ifdef __cplusplus
 }

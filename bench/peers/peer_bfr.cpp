@@ -45,6 +45,7 @@ struct surfaces {
 struct state {
     const peer_scene *where;
     std::shared_ptr<const surfaces> source;
+    std::vector<float> controls;
     std::vector<float> patch_points;
     std::vector<float> out; ///< of each point its position, and derivatives one behind the other
     bool derivatives;
@@ -59,7 +60,7 @@ template <int floats> void evaluate(state &self) {
     float *out = self.out.data();
     for (const patch &part : source.patches) {
         const surface &face = source.faces[size_t(part.face)];
-        if (part.corner == 0) face.PreparePatchPoints(where.controls[0], layout, points, layout);
+        if (part.corner == 0) face.PreparePatchPoints(self.controls.data(), layout, points, layout);
         for (uint32_t row = 0; row < where.row_count; row++, out += floats) {
             if constexpr (floats == 3)
                 face.Evaluate(parameters + 2 * row, points, layout, out);
@@ -136,6 +137,7 @@ void append(peer_list &list, const peer_scene &where, const std::shared_ptr<cons
     self->where = &where;
     self->source = source;
     self->derivatives = derivatives;
+    self->controls.assign(where.controls[0], where.controls[0] + 3 * size_t(where.control_count));
     self->patch_points.resize(3 * source->point_count_max);
     self->out.resize(size_t(where.patch_count) * where.row_count * (derivatives ? 9 : 3));
     peer &added = *peer_append(&list);
@@ -148,6 +150,8 @@ void append(peer_list &list, const peer_scene &where, const std::shared_ptr<cons
     added.build_ms = source->build_ms;
     added.load_ms = double(NAN);
     added.byte_count = count_bytes(*source);
+    added.controls = self->controls.data();
+    added.control_size = 3;
     added.state = self.release();
     added.run = run;
     added.position = position;
@@ -162,6 +166,17 @@ bool peers_add_bfr(peer_list *list, const peer_scene *scene) {
         const std::shared_ptr<const surfaces> source = build(*scene);
         append(*list, *scene, source, false);
         append(*list, *scene, source, true);
+    });
+    if (!good) std::fprintf(stderr, "limn-bench: %s: %s\n", scene->name, error);
+    return good;
+}
+
+bool peers_add_bfr_copies(peer_list *list, const peer_scene *scene, uint32_t count) {
+    char error[256];
+    const bool good = guard(error, sizeof error, [&] {
+        const std::shared_ptr<const surfaces> source = build(*scene);
+        for (uint32_t copy = 0; copy < count; copy++)
+            append(*list, *scene, source, true);
     });
     if (!good) std::fprintf(stderr, "limn-bench: %s: %s\n", scene->name, error);
     return good;

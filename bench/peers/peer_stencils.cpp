@@ -195,15 +195,21 @@ std::unique_ptr<const stencil_table> build(const peer_scene &where, peer_points 
     return table;
 }
 
-/// One table serves with and without derivatives, since their weights are arrays of their own.
-std::shared_ptr<const stencils> build_both(const peer_scene &where, peer_points points) {
+/// With derivatives.
+std::shared_ptr<stencils> build_all(const peer_scene &where, peer_points points) {
     auto built = std::make_shared<stencils>();
-    build(where, points, false, built->position_build_ms);
     built->table = build(where, points, true, built->derivative_build_ms);
     const std::vector<int> &sizes = built->table->GetSizes();
     built->offsets.assign(sizes.size() + 1, 0);
     for (size_t i = 0; i < sizes.size(); i++)
         built->offsets[i + 1] = built->offsets[i] + sizes[i];
+    return built;
+}
+
+/// One table serves with and without derivatives, since their weights are arrays of their own.
+std::shared_ptr<const stencils> build_both(const peer_scene &where, peer_points points) {
+    const std::shared_ptr<stencils> built = build_all(where, points);
+    build(where, points, false, built->position_build_ms);
     return built;
 }
 
@@ -247,6 +253,8 @@ void append(peer_list &list, const peer_scene &where, const std::shared_ptr<cons
     added.state = self;
     added.run = threaded ? run_in_parts : run;
     added.position = position;
+    added.controls = self->controls.data();
+    added.control_size = uint32_t(size);
     added.destroy = destroy;
 }
 
@@ -266,6 +274,17 @@ void append_all(peer_list &list, const peer_scene &where) {
 bool peers_add_stencils(peer_list *list, const peer_scene *scene) {
     char error[256];
     const bool good = guard(error, sizeof error, [&] { append_all(*list, *scene); });
+    if (!good) std::fprintf(stderr, "limn-bench: %s: %s\n", scene->name, error);
+    return good;
+}
+
+bool peers_add_stencil_copies(peer_list *list, const peer_scene *scene, uint32_t count) {
+    char error[256];
+    const bool good = guard(error, sizeof error, [&] {
+        const std::shared_ptr<const stencils> source = build_all(*scene, PEER_UNIQUE_POINTS);
+        for (uint32_t copy = 0; copy < count; copy++)
+            append(*list, *scene, source, PEER_UNIQUE_POINTS, 4, true, false);
+    });
     if (!good) std::fprintf(stderr, "limn-bench: %s: %s\n", scene->name, error);
     return good;
 }

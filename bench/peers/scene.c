@@ -18,31 +18,37 @@ static bool check_bake(limn_bake_status status, const limn_baker *baker) {
 // -------------------------------------------------------------------------------------------------
 // Reading and baking
 
-/// The mesh as the baker has read and mended it, in the order of the file. Holes are in no file.
+/// The faces of a baked mesh, in the order of its source. Holes are in no file.
+static bool copy_faces(peer_scene *scene, const limn_mesh *mesh) {
+    const uint32_t size = mesh->domain->corner_count;
+    if (mesh->patch_count < mesh->face_count || mesh->base_first > 0) {
+        fprintf(stderr, "limn-bench: %s has holes or divided faces, which peers do not\n",
+                mesh->name);
+        return false;
+    }
+    snprintf(scene->name, sizeof scene->name, "%s", mesh->name);
+    scene->control_count = mesh->control_count;
+    scene->face_count = scene->patch_count = mesh->patch_count;
+    scene->controls = bench_allocate(mesh->control_count, sizeof *scene->controls);
+    memcpy(scene->controls, mesh->controls, mesh->control_count * sizeof *scene->controls);
+    scene->face_sizes = bench_allocate(mesh->patch_count, sizeof *scene->face_sizes);
+    scene->face_corners = bench_allocate(mesh->patch_count, size * sizeof *scene->face_corners);
+    for (uint32_t p = 0; p < mesh->patch_count; p++) {
+        const limn_patch_face face = limn_mesh_face(mesh, p);
+        uint32_t corners[LIMN_CORNER_MAX];
+        limn_mesh_corners(mesh, p, corners);
+        scene->face_sizes[p] = size;
+        for (uint32_t c = 0; c < size; c++)
+            scene->face_corners[size * face.face + (c + face.rotation) % size] = corners[c];
+    }
+    return true;
+}
+
 static bool copy_triangles(peer_scene *scene, const void *blob, size_t blob_size) {
     limn_pack pack;
     if (limn_pack_open(&pack, blob, blob_size) != LIMN_OK) return false;
     const limn_mesh mesh = limn_pack_mesh(&pack, 0);
-    if (mesh.patch_count < mesh.face_count) {
-        fprintf(stderr, "limn-bench: %s has holes, which peers do not\n", mesh.name);
-        return false;
-    }
-    snprintf(scene->name, sizeof scene->name, "%s", mesh.name);
-    scene->control_count = mesh.control_count;
-    scene->face_count = mesh.patch_count;
-    scene->controls = bench_allocate(mesh.control_count, sizeof *scene->controls);
-    memcpy(scene->controls, mesh.controls, mesh.control_count * sizeof *scene->controls);
-    scene->face_sizes = bench_allocate(mesh.patch_count, sizeof *scene->face_sizes);
-    scene->face_corners = bench_allocate(mesh.patch_count, 3 * sizeof *scene->face_corners);
-    for (uint32_t p = 0; p < mesh.patch_count; p++) {
-        const limn_patch_face face = limn_mesh_face(&mesh, p);
-        uint32_t corners[LIMN_CORNER_MAX];
-        limn_mesh_corners(&mesh, p, corners);
-        scene->face_sizes[p] = 3;
-        for (uint32_t c = 0; c < 3; c++)
-            scene->face_corners[3 * face.face + (c + face.rotation) % 3] = corners[c];
-    }
-    return true;
+    return copy_faces(scene, &mesh);
 }
 
 static bool read_triangles(peer_scene *scene, const char *path) {
@@ -272,21 +278,45 @@ void scene_set_bones(peer_scene *scene, bool equal) {
     }
 }
 
-bool scene_create(peer_scene *scene, const char *path, const scene_desc *desc) {
+static void choose_rows(peer_scene *scene, limn_scheme scheme, uint32_t level) {
     memset(scene, 0, sizeof *scene);
-    scene->scheme = desc->scheme;
-    scene->level = desc->level;
+    scene->scheme = scheme;
+    scene->level = level;
     scene->domain =
-        limn_domain_get(desc->scheme == LIMN_SCHEME_LOOP ? LIMN_DOMAIN_TRIANGLE : LIMN_DOMAIN_QUAD);
-    scene->row_count = scene->domain->row_counts[desc->level];
+        limn_domain_get(scheme == LIMN_SCHEME_LOOP ? LIMN_DOMAIN_TRIANGLE : LIMN_DOMAIN_QUAD);
+    scene->row_count = scene->domain->row_counts[level];
     for (uint16_t r = 0; r < scene->row_count; r++)
         scene->row_at[scene->domain->rows[r].i][scene->domain->rows[r].j] = r;
-    if (!read_mesh(scene, path) || !bake_both(scene, desc->isolated)) return false;
-    find_vertices(scene);
+}
+
+static void create_bones(peer_scene *scene) {
     scene->bones = bench_allocate(SCENE_BONE_COUNT, sizeof *scene->bones);
     scene_set_bones(scene, false);
+}
+
+bool scene_create(peer_scene *scene, const char *path, const scene_desc *desc) {
+    choose_rows(scene, desc->scheme, desc->level);
+    if (!read_mesh(scene, path) || !bake_both(scene, desc->isolated)) return false;
+    find_vertices(scene);
+    create_bones(scene);
     if (desc->thread_count > 1) scene->threads = team_create(desc->thread_count);
     return true;
+}
+
+bool scene_create_baked(peer_scene *scene, const limn_mesh *mesh, uint32_t level) {
+    const bool quads = mesh->domain->kind == LIMN_DOMAIN_QUAD;
+    choose_rows(scene, quads ? LIMN_SCHEME_CATMARK : LIMN_SCHEME_LOOP, level);
+    if (!copy_faces(scene, mesh)) return false;
+    find_vertices(scene);
+    create_bones(scene);
+    return true;
+}
+
+uint32_t scene_vertex(const peer_scene *scene, const limn_mesh *mesh, uint32_t patch,
+                      uint32_t row) {
+    const limn_patch_face face = limn_mesh_face(mesh, patch);
+    const size_t first = (size_t)face.face * scene->row_count;
+    return scene->unique[first + scene_row(scene, row, face.rotation)];
 }
 
 void scene_destroy(peer_scene *scene) {

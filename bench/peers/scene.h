@@ -74,6 +74,13 @@ typedef struct peer_scene {
 bool scene_create(peer_scene *scene, const char *path, const scene_desc *desc);
 void scene_destroy(peer_scene *scene);
 
+/// One level of a mesh that is baked, for peers that need no other baked form; of one thread. False
+/// after a message; destroy it all the same.
+bool scene_create_baked(peer_scene *scene, const limn_mesh *mesh, uint32_t level);
+
+/// The unique vertex at a row of a patch of that mesh.
+uint32_t scene_vertex(const peer_scene *scene, const limn_mesh *mesh, uint32_t patch, uint32_t row);
+
 topology scene_topology(const peer_scene *scene);
 
 /// How often the mesh is refined: once more than the patches where they are parts of faces.
