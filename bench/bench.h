@@ -15,6 +15,7 @@ extern "C" {
 #endif
 
 int bench_bake(int argc, char **argv);
+int bench_compare(int argc, char **argv);
 int bench_dolly(int argc, char **argv);
 int bench_frame_times(int argc, char **argv);
 int bench_isolation(int argc, char **argv);

@@ -12,6 +12,7 @@ static const struct {
 } benches[] = {
     {"bake", bench_bake,
      "time to bake, peak memory, and stored bytes beside OpenSubdiv's stencils"},
+    {"compare", bench_compare, "two results of frame: whether one is slower"},
     {"dolly", bench_dolly, "how far levels of detail move the surface, frame by frame, as CSV"},
     {"frame", bench_frame_times, "time of the frames of a scene, stage by stage"},
     {"isolation", bench_isolation, "bytes and time per face of isolated meshes beside dense ones"},

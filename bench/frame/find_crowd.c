@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "find_crowd.h"
 
+#include "../bench.h"
 #include "../peers/allocate.h"
 
 #include <math.h>
@@ -20,12 +21,16 @@ typedef struct search {
 } search;
 
 static double measure_p99(const frame_host *host, const frame_way *way, uint32_t count,
-                          uint32_t frames) {
+                          frame_length length) {
     const frame_ways alone = {.ways = {*way}, .count = 1};
-    frame_record *const records = bench_allocate(frames, sizeof *records);
-    frame_loop_run(host, &alone, count, (frame_length){frames, 1}, records);
-    const double p99 = frame_stage_times(records, frames, FRAME_STAGE_COUNT).p99;
+    frame_record *const records =
+        bench_allocate((size_t)length.frames * length.rounds, sizeof *records);
+    double *const curve = bench_allocate(length.frames, sizeof *curve);
+    frame_loop_run(host, &alone, count, length, records);
+    frame_loop_curve(records, length, curve);
+    const double p99 = bench_percentile(curve, length.frames, 0.99);
     free(records);
+    free(curve);
     return p99;
 }
 
@@ -39,9 +44,9 @@ static uint32_t choose_next(const search *s, double p99, double budget) {
     return (uint32_t)fmax(fmin(guess, high), low);
 }
 
-static void step(const frame_host *host, const frame_way *way, uint32_t frames, double budget,
+static void step(const frame_host *host, const frame_way *way, frame_length length, double budget,
                  search *s) {
-    const double p99 = measure_p99(host, way, s->next, frames);
+    const double p99 = measure_p99(host, way, s->next, length);
     if (p99 <= budget)
         s->best = (frame_crowd_size){.count = s->next, .p99 = p99};
     else
@@ -52,14 +57,14 @@ static void step(const frame_host *host, const frame_way *way, uint32_t frames, 
     if (!s->done) s->next = choose_next(s, p99, budget);
 }
 
-void frame_find_crowds(const frame_host *host, const frame_ways *ways, uint32_t frames,
+void frame_find_crowds(const frame_host *host, const frame_ways *ways, frame_length length,
                        double budget, frame_crowd_size *crowds) {
     search searches[FRAME_WAY_MAX];
     for (uint32_t w = 0; w < ways->count; w++)
         searches[w] = (search){.too_large = FRAME_COUNT_MAX + 1, .next = FIRST_COUNT};
     for (int round = 0; round < STEP_MAX; round++) {
         for (uint32_t w = 0; w < ways->count; w++) {
-            if (!searches[w].done) step(host, &ways->ways[w], frames, budget, &searches[w]);
+            if (!searches[w].done) step(host, &ways->ways[w], length, budget, &searches[w]);
         }
     }
     for (uint32_t w = 0; w < ways->count; w++)

@@ -215,7 +215,7 @@ static bool measure(const frame_host *host, const frame_ways *ways, const option
     const size_t record_count = (size_t)o->length.frames * o->length.rounds * ways->count;
     frame_record *const records = bench_allocate(record_count, sizeof *records);
     frame_loop_run(host, ways, host->script->count, o->length, records);
-    if (o->finds_crowd) frame_find_crowds(host, ways, o->length.frames, 1e-3 * o->budget, crowds);
+    if (o->finds_crowd) frame_find_crowds(host, ways, o->length, 1e-3 * o->budget, crowds);
     const frame_result result = {.host = host,
                                  .ways = ways,
                                  .length = o->length,

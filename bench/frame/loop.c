@@ -17,12 +17,12 @@ static frame_record make_frame(const frame_host *host, const frame_way *way, fra
     return record;
 }
 
-/// Some frames of the whole path, so that buffers are as large as they need to be.
+/// Some frames of the whole path, backwards to the first.
 static void warm_up(const frame_host *host, const frame_way *way, frame_crowd *crowd,
                     uint32_t frames) {
-    for (uint32_t frame = 0; frame < frames; frame += 8)
-        make_frame(host, way, crowd, frame, frames);
-    make_frame(host, way, crowd, 0, frames);
+    enum { WARM_FRAMES = 16 };
+    for (uint32_t f = WARM_FRAMES; f-- > 0;)
+        make_frame(host, way, crowd, f * (frames - 1) / (WARM_FRAMES - 1), frames);
 }
 
 void frame_loop_run(const frame_host *host, const frame_ways *ways, uint32_t count,
@@ -56,6 +56,16 @@ frame_times frame_stage_times(const frame_record *records, uint32_t count, int s
     const frame_times times = find_times(values, count);
     free(values);
     return times;
+}
+
+void frame_loop_curve(const frame_record *records, frame_length length, double *out) {
+    double *const values = bench_allocate(length.rounds, sizeof *values);
+    for (uint32_t frame = 0; frame < length.frames; frame++) {
+        for (uint32_t round = 0; round < length.rounds; round++)
+            values[round] = records[round * length.frames + frame].total;
+        out[frame] = bench_median(values, length.rounds);
+    }
+    free(values);
 }
 
 double frame_share_over(const frame_record *records, uint32_t count, double seconds) {

@@ -17,6 +17,12 @@ typedef struct frame_length {
 void frame_loop_run(const frame_host *host, const frame_ways *ways, uint32_t count,
                     frame_length length, frame_record *records);
 
+/// The median over the rounds of each frame of a way, seconds.
+///
+/// records  [length.rounds][length.frames]
+/// out      [length.frames]
+void frame_loop_curve(const frame_record *records, frame_length length, double *out);
+
 /// What a way took: percentiles by the nearest rank, seconds.
 typedef struct frame_times {
     double p50, p95, p99, max;

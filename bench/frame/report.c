@@ -37,15 +37,7 @@ frame_means frame_result_means(const frame_result *result, uint32_t way) {
 }
 
 void frame_result_curve(const frame_result *result, uint32_t way, double *out) {
-    const frame_record *const records = frame_result_records(result, way);
-    const frame_length length = result->length;
-    double *const values = bench_allocate(length.rounds, sizeof *values);
-    for (uint32_t frame = 0; frame < length.frames; frame++) {
-        for (uint32_t round = 0; round < length.rounds; round++)
-            values[round] = records[round * length.frames + frame].total;
-        out[frame] = bench_median(values, length.rounds);
-    }
-    free(values);
+    frame_loop_curve(frame_result_records(result, way), result->length, out);
 }
 
 // -------------------------------------------------------------------------------------------------

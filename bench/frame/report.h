@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-/// The largest crowd of one way within the budget at p99.
+/// The largest crowd of one way within the budget at p99 of its curve.
 typedef struct frame_crowd_size {
     uint32_t count; ///< 0: not even one character
     bool at_limit;  ///< FRAME_COUNT_MAX: more were not tried
@@ -37,9 +37,7 @@ typedef struct frame_means {
 
 frame_means frame_result_means(const frame_result *result, uint32_t way);
 
-/// The median over the rounds of each frame, seconds.
-///
-/// out  [length.frames]
+/// frame_loop_curve() of a way.
 void frame_result_curve(const frame_result *result, uint32_t way, double *out);
 
 void frame_report_print(FILE *stream, const frame_result *result);

