@@ -43,6 +43,37 @@ expect skin "$bench" skin --quick --rounds 1 --csv skin.csv "$assets/imp.obj" >s
 expect "steps" [ "$(grep -c '^imp.obj,' skin.csv)" = 13 ]
 expect "every step is a time" [ "$(awk -F, '/^imp/ && $(NF - 1) <= 0' skin.csv)" = "" ]
 
+# A scene by all means, and what compares two results; then scenes with mistakes
+printf 'mesh %s\ncount 3\narea 2 2\nlod error 2\nlight exact\nsun 0 -1 0 1 1 1\ncamera 0 0 1 9 0 0 0\n' "$assets/imp.obj" >few.scene
+printf 'camera 1 0 1 5 0 0 0 # nearer\n' >>few.scene
+expect frame "$bench" frame --scene few.scene --frames 16 --rounds 1 --lod error:4 --threads 2 --peers floats,dense,discrete \
+    --json few.json --csv few.csv --html few.html >few.txt
+expect "a line for each frame" [ "$(grep -c '^few,3,' few.csv)" = 64 ]
+expect "one value per column" [ "$(grep -v '^#' few.csv | awk -F, '{ print NF }' | sort -u)" = 23 ]
+expect "stages with times" [ "$(awk -F, '/"limn"/ && ($6 <= 0 || $8 <= 0 || $9 <= 0 || $10 <= 0 || $13 <= 0)' few.csv)" = "" ]
+expect "16 bytes a vertex, lit and packed, and 24 as floats" [ "$(awk -F, '/"limn"|"floats"/ && $17 != $15 * ($3 ~ /limn/ ? 16 : 24)' few.csv)" = "" ]
+expect "patches are drawn or culled" [ "$(awk -F, '/"limn"/ && $18 + $19 + $20 + $21 + $22 + $23 != 3 * 680' few.csv)" = "" ]
+expect "three pictures" [ "$(grep -c '<svg' few.html)" = 3 ]
+expect "a page of its own" sh -c "! grep -q 'http\|<script\|src=' few.html"
+expect "the same is no slower" "$bench" compare few.json few.json >compare.txt
+expect "of all ways" [ "$(grep -c 'no difference' compare.txt)" = 4 ]
+awk '/"frames": \[/ { on = 1; print; next } /\]/ { on = 0 } on { sub(",", ""); print 2 * $1 (++n % 16 ? "," : ""); next } { print }' few.json >slow.json
+expect "twice the time" sh -c "'$bench' compare few.json slow.json >compare.txt; [ \$? = 1 ]"
+expect "is slower" [ "$(grep -c ' 2.000 .*slower$' compare.txt)" = 4 ]
+expect "and half of it faster" "$bench" compare slow.json few.json >compare.txt
+expect "which is said" grep -q ' 0.500 .*faster$' compare.txt
+expect "no results" sh -c "echo '{}' >none.json; '$bench' compare few.json none.json 2>error.txt; [ \$? = 2 ]"
+expect "are named" grep -q none.json error.txt
+expect "a crowd for each way" sh -c "'$bench' frame --scene few.scene --quick --find-crowd --budget 0.5 | grep -q '^  limn  *[0-9]'"
+printf 'mesh a.obj\n\nlod error -1\n' >bad.scene
+expect "a wrong line" sh -c "! '$bench' frame --scene bad.scene --csv bad.csv 2>error.txt"
+expect "is named" grep -q 'bad.scene:3: .*lod error PX' error.txt
+expect "no frames are left" [ ! -e bad.csv ]
+expect "an unknown way" sh -c "'$bench' frame --peers dense,none 2>error.txt; [ \$? = 2 ]"
+for scene in hero crowd worst; do
+    expect "scene $scene" sh -c "'$bench' frame --scene $scene --quick --count 2 | grep -q '^  frame'"
+done
+
 # An open cube, closed with triangles so that faces are divided, and two quads, whose corners Embree rounds otherwise
 printf 'v 0 0 0\nv 1 0 0\nv 1 1.3 0\nv 0 1 0\nv 0 0 1\nv 1 0 1.2\nv 1 1 1\nv 0 1 1\n' >quads.obj
 cp quads.obj corners.obj

@@ -39,15 +39,15 @@ static const char help[] =
     "  --family F     reproducible (default) or fast\n"
     "  --clock C      wall (default); thread: the time that the thread ran, where others use the\n"
     "                 machine, too; of one thread only\n"
-    "  --peers        the same frames by other ways, see below\n"
+    "  --peers LIST   the same frames by other ways: names with commas between, or all\n"
     "  --find-crowd   the largest crowd of each way that keeps the budget at p99, on the scene's "
     "area\n"
     "  --json FILE    all results, for limn-bench compare\n"
     "  --csv FILE     a line per frame\n"
     "  --html FILE    a page with pictures\n\n"
-    "Peers write what `limn, floats` writes: positions and normals as floats, without light. Who "
-    "is\n"
-    "out of view costs none of them anything.\n\n"
+    "Peers write positions and normals as floats, without light. Who is out of view costs none of\n"
+    "them anything. Each character is made by one thread, but those of Limn.\n\n"
+    "  floats         Limn, writing that\n"
     "  dense          the mesh of level 4, or of the scene's level, skinned: AVX2 or SSE2, four\n"
     "                 bones a vertex\n"
     "  discrete       the meshes of levels 0 to 4 skinned: one for each character, the coarsest\n"
@@ -68,8 +68,44 @@ typedef struct options {
     float budget; ///< ms
     uint32_t threads, isa;
     limn_family family;
-    bool peers, finds_crowd;
+    uint32_t peers; ///< bit p: peers[p]
+    bool finds_crowd;
 } options;
+
+static const struct {
+    const char *name;
+    frame_ways_add *add;
+} peers[] = {
+    {"floats", frame_ways_add_floats},     {"dense", frame_ways_add_dense},
+    {"discrete", frame_ways_add_discrete},
+#ifdef BENCH_WITH_OPENSUBDIV
+    {"stencils", frame_ways_add_stencils}, {"bfr", frame_ways_add_bfr},
+#endif
+};
+
+enum { PEER_COUNT = sizeof peers / sizeof *peers };
+
+static bool find_peer(const char *name, size_t length, uint32_t *bit) {
+    for (uint32_t p = 0; p < PEER_COUNT; p++) {
+        if (strlen(peers[p].name) != length || strncmp(peers[p].name, name, length) != 0) continue;
+        *bit = 1u << p;
+        return true;
+    }
+    return false;
+}
+
+/// Names with commas between them, or "all".
+static bool parse_peers(const char *list, uint32_t *chosen) {
+    *chosen = strcmp(list, "all") == 0 ? (1u << PEER_COUNT) - 1 : 0;
+    while (*list && *chosen != (1u << PEER_COUNT) - 1) {
+        const size_t length = strcspn(list, ",");
+        uint32_t bit;
+        if (!find_peer(list, length, &bit)) return false;
+        *chosen |= bit;
+        list += length + (list[length] == ',');
+    }
+    return *chosen != 0;
+}
 
 static bool take(const char **to) {
     *to = optarg;
@@ -129,7 +165,7 @@ static bool parse_option(int option, void *parsed) {
     case 'w':
         return take(&to->html);
     case 'o':
-        return to->peers = true;
+        return parse_peers(optarg, &to->peers);
     case 'F':
         return to->finds_crowd = true;
     default:
@@ -198,14 +234,9 @@ static bool report(const frame_result *result, const files *f) {
 // Running
 
 static bool add_ways(frame_ways *ways, const frame_host *host, const options *o) {
-    if (!frame_ways_add_limn(ways, host, false)) return false;
-    if (!o->peers) return true;
-    bool good = frame_ways_add_limn(ways, host, true) && frame_ways_add_skinned(ways, host, false);
-    if (host->script->lod.lod != LIMN_LOD_UNIFORM)
-        good = good && frame_ways_add_skinned(ways, host, true);
-#ifdef BENCH_WITH_OPENSUBDIV
-    good = good && frame_ways_add_peers(ways, host);
-#endif
+    bool good = frame_ways_add_limn(ways, host);
+    for (uint32_t p = 0; p < PEER_COUNT && good; p++)
+        good = !(o->peers & 1u << p) || peers[p].add(ways, host);
     return good;
 }
 
@@ -260,7 +291,7 @@ int bench_frame_times(int argc, char **argv) {
                                           {"isa", required_argument, NULL, 'i'},
                                           {"family", required_argument, NULL, 'y'},
                                           {"clock", required_argument, NULL, 'k'},
-                                          {"peers", no_argument, NULL, 'o'},
+                                          {"peers", required_argument, NULL, 'o'},
                                           {"find-crowd", no_argument, NULL, 'F'},
                                           {"json", required_argument, NULL, 'j'},
                                           {"csv", required_argument, NULL, 'c'},

@@ -5,6 +5,7 @@
 #include "../peers/allocate.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 uint32_t frame_result_record_count(const frame_result *result) {
     return result->length.rounds * result->length.frames;
@@ -61,7 +62,7 @@ static void print_stages(FILE *stream, const frame_result *result, uint32_t way,
     print_times(stream, "frame", frame_stage_times(records, count, FRAME_STAGE_COUNT), 1);
 }
 
-/// What issue is taken with stages: whether those around evaluation cost less than it.
+/// Whether the stages around evaluation cost less than it.
 static void print_evaluation(FILE *stream, const frame_means *means) {
     const double evaluate = means->stages[FRAME_EVALUATE];
     if (evaluate == 0) return;
@@ -99,19 +100,23 @@ static void print_way(FILE *stream, const frame_result *result, uint32_t way) {
     fprintf(stream, "  over %.1f ms: %.1f %% of frames\n", 1e3 * result->budget, 100 * over);
 }
 
+/// What others are compared with: Limn writing the same, if that was measured.
+static uint32_t find_base(const frame_ways *ways) {
+    return ways->count > 1 && strcmp(ways->ways[1].name, "floats") == 0 ? 1 : 0;
+}
+
 static void print_comparison(FILE *stream, const frame_result *result) {
-    const uint32_t frames = result->length.frames;
+    const uint32_t frames = result->length.frames, base = find_base(result->ways);
     double *const curves = bench_allocate(2 * (size_t)frames, sizeof *curves);
-    frame_result_curve(result, 0, curves);
-    fprintf(stream, "\ntime against %s, median of frames:", result->ways->ways[0].name);
-    for (uint32_t w = 1; w < result->ways->count; w++) {
+    frame_result_curve(result, base, curves);
+    fprintf(stream, "\ntime against %s, median of the frames:\n", result->ways->ways[base].name);
+    for (uint32_t w = 0; w < result->ways->count; w++) {
         frame_result_curve(result, w, curves + frames);
         for (uint32_t f = 0; f < frames; f++)
             curves[frames + f] /= curves[f];
-        fprintf(stream, " %s %.2f", result->ways->ways[w].name,
+        fprintf(stream, "  %-12s %9.3f\n", result->ways->ways[w].name,
                 bench_median(curves + frames, frames));
     }
-    fprintf(stream, "\n");
     free(curves);
 }
 

@@ -67,15 +67,16 @@ typedef struct frame_ways {
 frame_way *frame_ways_append(frame_ways *ways);
 void frame_ways_destroy(frame_ways *ways);
 
-/// Limn as the scene wants it, with light and packing timed; or writing what the others write:
-/// positions and normals as floats.
-bool frame_ways_add_limn(frame_ways *ways, const frame_host *host, bool plain);
+/// Each prepares a way and appends it, or nothing where the scene leaves it no sense. False after a
+/// message.
+typedef bool frame_ways_add(frame_ways *ways, const frame_host *host);
 
-/// Skinned meshes, of the finest level or of all. False after a message, here and below.
-bool frame_ways_add_skinned(frame_ways *ways, const frame_host *host, bool discrete);
-
-/// OpenSubdiv's stencils, and its Bfr surfaces.
-bool frame_ways_add_peers(frame_ways *ways, const frame_host *host);
+frame_ways_add frame_ways_add_limn;     ///< as the scene wants it, with light and packing timed
+frame_ways_add frame_ways_add_floats;   ///< Limn writing what the others write
+frame_ways_add frame_ways_add_dense;    ///< the skinned mesh of the finest level
+frame_ways_add frame_ways_add_discrete; ///< skinned meshes of all levels
+frame_ways_add frame_ways_add_stencils; ///< OpenSubdiv's limit stencils, and its Bfr surfaces
+frame_ways_add frame_ways_add_bfr;
 
 /// Memory for poses, one for each thread.
 frame_pose_memory *frame_host_create_poses(const frame_host *host);

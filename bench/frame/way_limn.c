@@ -267,18 +267,18 @@ static void make_box(state *self) {
     }
 }
 
-bool frame_ways_add_limn(frame_ways *ways, const frame_host *host, bool plain) {
+static bool add_limn(frame_ways *ways, const frame_host *host, const char *name, form scene) {
     const limn_mesh *const mesh = &host->actor->mix.mesh;
     state *const self = bench_allocate(1, sizeof *self);
     self->host = *host;
-    if (!plain) self->scene = (form){host->script->packed, host->script->light != FRAME_LIGHT_NONE};
+    self->scene = scene;
     self->splits = self->scene.packed || self->scene.lit;
     self->templates = bench_allocate(limn_template_count(mesh->domain), sizeof *self->templates);
     limn_templates_write(mesh->domain, LIMN_TOPOLOGY_TRIANGLES, 2, NULL, self->templates);
     self->poses = frame_host_create_poses(host);
     make_box(self);
     *frame_ways_append(ways) = (frame_way){
-        .name = plain ? "limn, floats" : "limn",
+        .name = name,
         .shared_bytes = host->actor->mix.pack.blob_size,
         .instance_bytes = (mesh->point_count + (uint64_t)mesh->normal_count) * sizeof(float[3]) +
                           limn_plan_size(mesh),
@@ -287,4 +287,13 @@ bool frame_ways_add_limn(frame_ways *ways, const frame_host *host, bool plain) {
         .make = make,
         .destroy = destroy};
     return true;
+}
+
+bool frame_ways_add_limn(frame_ways *ways, const frame_host *host) {
+    return add_limn(ways, host, "limn",
+                    (form){host->script->packed, host->script->light != FRAME_LIGHT_NONE});
+}
+
+bool frame_ways_add_floats(frame_ways *ways, const frame_host *host) {
+    return add_limn(ways, host, "floats", (form){.packed = false});
 }

@@ -137,7 +137,10 @@ static bool add_peers(frame_ways *ways, const frame_host *host, const char *name
            create_peers(self, add, &added->shared_bytes);
 }
 
-bool frame_ways_add_peers(frame_ways *ways, const frame_host *host) {
-    return add_peers(ways, host, "stencils", peers_add_stencil_copies) &&
-           add_peers(ways, host, "bfr", peers_add_bfr_copies);
+bool frame_ways_add_stencils(frame_ways *ways, const frame_host *host) {
+    return add_peers(ways, host, "stencils", peers_add_stencil_copies);
+}
+
+bool frame_ways_add_bfr(frame_ways *ways, const frame_host *host) {
+    return add_peers(ways, host, "bfr", peers_add_bfr_copies);
 }

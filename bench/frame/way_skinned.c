@@ -103,7 +103,7 @@ static uint64_t create_meshes(state *self) {
     return bytes;
 }
 
-bool frame_ways_add_skinned(frame_ways *ways, const frame_host *host, bool discrete) {
+static bool add_skinned(frame_ways *ways, const frame_host *host, bool discrete) {
     state *const self = bench_allocate(1, sizeof *self);
     const char *isa;
     const uint32_t finest = frame_discrete_finest(host->script);
@@ -120,4 +120,13 @@ bool frame_ways_add_skinned(frame_ways *ways, const frame_host *host, bool discr
         return false;
     added->shared_bytes = create_meshes(self);
     return true;
+}
+
+bool frame_ways_add_dense(frame_ways *ways, const frame_host *host) {
+    return add_skinned(ways, host, false);
+}
+
+/// Where all levels are one, that is the dense mesh.
+bool frame_ways_add_discrete(frame_ways *ways, const frame_host *host) {
+    return host->script->lod.lod == LIMN_LOD_UNIFORM || add_skinned(ways, host, true);
 }
