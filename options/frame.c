@@ -26,12 +26,18 @@ static void place_target(const limni_frame_options *options, const limni_bounds 
         camera->target[axis] = bounds->min[axis] / 2 + bounds->max[axis] / 2;
 }
 
-/// Finds right and up for the axis towards the viewer. False if `up` lies along it, or is 0.
-static bool set_up(limni_camera *camera, const float up[3]) {
+/// Finds the axis towards the viewer. False if the eye is the target.
+static bool face_target(limni_camera *camera) {
+    for (int axis = 0; axis < 3; axis++)
+        camera->axes[2][axis] = (double)camera->eye[axis] - (double)camera->target[axis];
+    return normalise(camera->axes[2]) > 0;
+}
+
+bool limni_camera_orient(limni_camera *camera) {
     static const double least_sine = 1e-3; // below, floats do not tell what is to the right
+    const float *const up = camera->up;
     double direction[3] = {(double)up[0], (double)up[1], (double)up[2]};
-    if (!(normalise(direction) > 0)) return false;
-    memcpy(camera->up, up, sizeof camera->up);
+    if (!face_target(camera) || !(normalise(direction) > 0)) return false;
     cross(direction, camera->axes[2], camera->axes[0]);
     if (!(normalise(camera->axes[0]) > least_sine)) return false;
     cross(camera->axes[2], camera->axes[0], camera->axes[1]);
@@ -44,12 +50,15 @@ static bool refuse_point(limni_frame_options *options, const char *name, const f
                               (double)point[1], (double)point[2], why);
 }
 
+/// Whether the camera can have this direction up.
+static bool set_up(limni_camera *camera, const float up[3]) {
+    memcpy(camera->up, up, sizeof camera->up);
+    return limni_camera_orient(camera);
+}
+
 static bool orient(limni_frame_options *options, limni_camera *camera) {
     static const float usual[3] = {0, 1, 0}, other[3] = {0, 0, -1};
-    for (int axis = 0; axis < 3; axis++)
-        camera->axes[2][axis] = (double)camera->eye[axis] - (double)camera->target[axis];
-    if (!(normalise(camera->axes[2]) > 0))
-        return refuse_point(options, "eye", camera->eye, "is the target too");
+    if (!face_target(camera)) return refuse_point(options, "eye", camera->eye, "is the target too");
     if (!limni_frame_given(options, LIMNI_FRAME_UP))
         return set_up(camera, usual) || set_up(camera, other);
     return set_up(camera, options->up) ||

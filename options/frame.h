@@ -25,6 +25,9 @@ typedef struct limni_frame {
     limn_lod_desc desc;
 } limni_frame;
 
+/// Finds the axes of a camera from its eye, target and up. False if these do not say them.
+bool limni_camera_orient(limni_camera *camera);
+
 /// Fills in what was not given. `options` were checked; on failure they hold the error.
 bool limni_frame_resolve(limni_frame_options *options, const limni_bounds *bounds,
                          limni_frame *frame);

@@ -136,7 +136,13 @@ expect_error 1 "$file" --png "$folder"
 [ -c /dev/null ] || fail "/dev/null was replaced"
 
 expect_error 2
-expect_error 2 "$file"
+# There is no window without a display.
+unset DISPLAY WAYLAND_DISPLAY
+expect_error 1 "$file"
+expect_error 2 "$file" --overview --eye 1,2,3
+expect_error 2 "$file" --light base
+expect_error 2 "$file" --keys nonsense
+expect_error 2 "$file" --png "$out" --keys t
 expect_error 2 --png "$out"
 expect_error 2 "$file" --png
 expect_error 2 "$file" --png ""
@@ -178,6 +184,7 @@ cp "$folder/shaded.png" "$folder/kept.png"
 cmp -s "$folder/shaded.png" "$folder/kept.png" || fail "a failure damaged an older picture"
 
 "$view" --help | grep -q -e --control-mesh || fail "--help"
+"$view" --help | grep -q -e "f12 .*picture" || fail "--help says nothing about keys"
 "$view" --help | grep -q -e --tolerance || fail "--help says nothing about frames"
 "$view" --version | grep -q '^limn-view [0-9]*\.[0-9]*\.[0-9]*$' || fail "--version"
 

@@ -2,6 +2,7 @@
 #include "camera.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double half_angle_tangent = 0.24932800284318; // tan 14°: a portrait lens
 static const double margin = 0.07;                         // of half the picture, on every side
@@ -71,7 +72,18 @@ static void set_projection(view_camera *camera, const double tangents[2], double
     camera->projection[14] = (float)(2 * far * near / (near - far));
 }
 
-bool view_framing_camera(const view_framing *framing, double aspect, view_camera *camera) {
+/// eye: along the axes; the target is `depth` in front of it
+static void place_camera(limni_camera *camera, const double eye[3], double depth) {
+    for (int axis = 0; axis < 3; axis++) {
+        double sum = 0;
+        for (int row = 0; row < 3; row++)
+            sum += axes[row][axis] * eye[row];
+        camera->eye[axis] = (float)sum;
+        camera->target[axis] = (float)(sum - axes[2][axis] * depth);
+    }
+}
+
+bool view_framing_camera(const view_framing *framing, double aspect, limni_camera *camera) {
     static const double largest = 1e15, smallest = 1e-15;
     double eye[3] = {0, 0, -INFINITY}; // in the camera's axes
     for (int direction = 0; direction < 2; direction++) {
@@ -85,14 +97,18 @@ bool view_framing_camera(const view_framing *framing, double aspect, view_camera
     if (!(fabs(eye[0]) + fabs(eye[1]) + fabs(eye[2]) + distance < largest)) return false;
 
     eye[2] = framing->farthest + distance;
-    set_view(camera, axes, eye);
-    const double near = fmax((distance - depth) * 0.9, distance * 1e-3);
-    const double tangents[2] = {view_tangent(aspect, 0), view_tangent(aspect, 1)};
-    set_projection(camera, tangents, near, distance * 1.02);
+    *camera = (limni_camera){
+        .up = {0, 1, 0},
+        .fov = (float)(2 * atan(view_tangent(aspect, 1))),
+        .near_plane = (float)fmax((distance - depth) * 0.9, distance * 1e-3),
+        .far_plane = (float)(distance * 1.02),
+    };
+    memcpy(camera->axes, axes, sizeof axes);
+    place_camera(camera, eye, distance - depth / 2);
     return true;
 }
 
-view_camera view_camera_of_frame(const limni_camera *source, double aspect) {
+view_camera view_camera_matrices(const limni_camera *source, double aspect) {
     double eye[3];
     for (int row = 0; row < 3; row++)
         eye[row] = dot(source->axes[row], source->eye);

@@ -30,9 +30,9 @@ view_framing view_framing_start(double aspect);
 void view_framing_include(view_framing *framing, const float point[3]);
 
 /// False if no point was included, or if the points are too far apart for the arithmetic.
-bool view_framing_camera(const view_framing *framing, double aspect, view_camera *camera);
+bool view_framing_camera(const view_framing *framing, double aspect, limni_camera *camera);
 
-/// The camera of a frame, whose vertical angle of view it keeps whatever the aspect.
-view_camera view_camera_of_frame(const limni_camera *source, double aspect);
+/// The matrices of a camera, whose vertical angle of view it keeps whatever the aspect.
+view_camera view_camera_matrices(const limni_camera *source, double aspect);
 
 #endif

@@ -1,26 +1,32 @@
 /* SPDX-License-Identifier: MIT */
 /* limn-view: arguments and exit statuses. */
+#include "keys.h"
 #include "numbers.h"
 #include "output_file.h"
 #include "picture.h"
 #include "report.h"
 #include "scene.h"
+#include "script.h"
 #include "target.h"
+#include "window.h"
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { STATUS_OK = 0, STATUS_FAILED = 1, STATUS_USAGE = 2 };
 
-static const char help_text[] =
-    "Usage: limn-view FILE.limn --png OUT.png [OPTION]...\n"
-    "Draws the meshes of a baked .limn file as a PNG picture. Needs no window system.\n"
+static const char options_help[] =
+    "Usage: limn-view FILE [OPTION]...\n"
+    "       limn-view FILE --png OUT.png [OPTION]...\n"
+    "Shows the meshes of a baked .limn file, evaluated in every frame, in a window; or draws a\n"
+    "PNG picture, which needs no window system. A mesh file (.obj, .off, .ply, .gltf, .glb) is\n"
+    "baked first, with exact normals, as is one that is dropped into the window.\n"
     "\n"
     "      --png OUT.png       the picture to write; replaced only by a complete one\n"
     "      --level L           0 (one triangle per patch) to 4 (256); between whole numbers, the\n"
     "                          next level on its way (morphing); default 4\n"
     "      --size WxH          of the picture, in pixels, up to 8192 each; default 1280x960, or\n"
-    "                          with an eye the viewport\n"
+    "                          with an eye the viewport; of the window 1280x720\n"
     "      --colour WHAT       materials (default): base colours and textures, and clay where "
     "there\n"
     "                          are none; clay; uv: a chequered pattern in texture coordinates;\n"
@@ -41,15 +47,25 @@ static const char help_text[] =
     "      --overview          look at the frame from where pictures without an eye are taken\n"
     "      --help              print this and exit\n"
     "      --version           print the version and exit\n"
-    "\n" LIMNI_FRAME_HELP "\n"
+    "\n" LIMNI_FRAME_HELP;
+
+static const char keys_help[] =
+    "\n"
+    "The window begins with what the options say; its camera counts as an eye, and levels are by\n"
+    "length unless something else is said. Drag with the left button to orbit, with the right one\n"
+    "to look around, with the middle one to pan; the wheel zooms. Its keys:\n";
+
+static const char end_help[] =
+    "\n"
     "Without an eye, the camera looks at the surface from the front (+Z), the right and above,\n"
     "and frames it the same way at every level. The inside of an open surface is darker than its\n"
     "outside. The same command writes the same bytes on one machine.\n"
     "\n"
-    "Exit status: 0 the picture was written; 1 the file or the machine does not allow it;\n"
-    "2 the command line is wrong. In the last two cases nothing is written.\n"
+    "Exit status: 0 the picture was written, or the window closed; 1 the file or the machine does\n"
+    "not allow it; 2 the command line is wrong. In the last two cases nothing is written.\n"
     "\n"
-    "Example: limn-view spot.limn --png spot.png --eye 0,1,3 --colour levels --wireframe\n";
+    "Examples: limn-view fox.glb\n"
+    "          limn-view spot.limn --png spot.png --eye 0,1,3 --colour levels --wireframe\n";
 
 static const char version_format[] = "limn-view %u.%u.%u\n";
 
@@ -66,6 +82,7 @@ enum option_key {
     KEY_CONTROL,
     KEY_MESH,
     KEY_OVERVIEW,
+    KEY_KEYS,
     KEY_HELP,
     KEY_VERSION
 };
@@ -74,6 +91,11 @@ static bool parse_size(view_picture *picture, const char *text) {
     return limni_parse_size(text, VIEW_TARGET_SIZE_MAX, &picture->width, &picture->height) ||
            view_fail("--size '%s': not WIDTHxHEIGHT with 1 to %d pixels each", text,
                      VIEW_TARGET_SIZE_MAX);
+}
+
+static bool parse_keys(view_picture *picture, const char *text) {
+    picture->keys = text;
+    return view_script_check(text) || view_fail("--keys '%s': not names of keys", text);
 }
 
 static bool parse_mesh(view_picture *picture, const char *text) {
@@ -90,7 +112,7 @@ static bool parse_colour(view_picture *picture, const char *text) {
                                         [VIEW_COLOURS_LEVELS] = "levels",
                                         [VIEW_COLOURS_UV] = "uv",
                                         [VIEW_COLOURS_NORMALS] = "normals"};
-    for (int colours = VIEW_COLOURS_MATERIALS; colours <= VIEW_COLOURS_NORMALS; colours++) {
+    for (int colours = 0; colours < VIEW_COLOURS_COUNT; colours++) {
         picture->colours = (view_colours)colours;
         if (strcmp(text, names[colours]) == 0) return true;
     }
@@ -142,6 +164,7 @@ static const struct option long_options[] = {
     {"control-mesh", no_argument, NULL, KEY_CONTROL},
     {"mesh", required_argument, NULL, KEY_MESH},
     {"overview", no_argument, NULL, KEY_OVERVIEW},
+    {"keys", required_argument, NULL, KEY_KEYS}, // for tests
     {"help", no_argument, NULL, KEY_HELP},
     {"version", no_argument, NULL, KEY_VERSION},
     LIMNI_FRAME_OPTIONS(LIMNI_FRAME_LONG_OPTION) // with their commas
@@ -171,6 +194,8 @@ static bool apply_option(view_picture *picture, int key) {
         return picture->control_mesh = true;
     case KEY_MESH:
         return parse_mesh(picture, optarg);
+    case KEY_KEYS:
+        return parse_keys(picture, optarg);
     case KEY_OVERVIEW:
         return picture->overview = true;
     default:
@@ -181,11 +206,12 @@ static bool apply_option(view_picture *picture, int key) {
 }
 
 static bool check_paths(view_picture *picture, char *const *operands, int operand_count) {
-    if (operand_count == 0) return view_fail("no .limn file given");
-    if (operand_count > 1) return view_fail("'%s': one .limn file at a time", operands[1]);
-    if (!picture->png_path) return view_fail("no output given: use --png OUT.png");
-    if (!*picture->png_path) return view_fail("--png '': no file name");
+    if (operand_count == 0) return view_fail("no file given");
+    if (operand_count > 1) return view_fail("'%s': one file at a time", operands[1]);
     picture->limn_path = operands[0];
+    if (!picture->png_path) return true;
+    if (!*picture->png_path) return view_fail("--png '': no file name");
+    if (picture->keys) return view_fail("--keys: there is no window");
     if (limni_is_same_file(picture->limn_path, picture->png_path))
         return view_fail("%s is input and output", picture->png_path);
     return true;
@@ -202,15 +228,37 @@ static bool check_light(const view_light *light) {
 /// A picture of a frame has the size of its viewport.
 static bool check_frame(view_picture *picture) {
     limni_frame_options *const frame = &picture->frame;
+    frame->own_eye = !picture->png_path;
     if (!limni_frame_options_check(frame)) return view_fail("%s", frame->error);
     const bool has_eye = limni_frame_given(frame, LIMNI_FRAME_EYE);
     if (picture->overview && !has_eye) return view_fail("--overview: there is no --eye");
     if (picture->width) return true;
-    picture->width = has_eye ? frame->width : 1280;
-    picture->height = has_eye ? frame->height : 960;
+    picture->width = has_eye || frame->own_eye ? frame->width : 1280;
+    picture->height = has_eye || frame->own_eye ? frame->height : 960;
     return (picture->width <= VIEW_TARGET_SIZE_MAX && picture->height <= VIEW_TARGET_SIZE_MAX) ||
            view_fail("--viewport %ux%u: a picture has at most %d pixels a side; give its --size",
                      frame->width, frame->height, VIEW_TARGET_SIZE_MAX);
+}
+
+/// What only pictures have.
+static bool check_window(const view_picture *picture) {
+    if (picture->png_path) return true;
+    if (picture->overview) return view_fail("--overview: there is no --png");
+    return picture->light.mode != VIEW_LIGHT_BASE || view_fail("--light base: there is no --png");
+}
+
+static int print_help(void) {
+    static const char *const keys[][2] = {
+#define KEY_HELP(key, code, name, help) {name, help},
+        VIEW_KEYS(KEY_HELP)
+#undef KEY_HELP
+    };
+    fputs(options_help, stdout);
+    fputs(keys_help, stdout);
+    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
+        printf("      %-8s %s\n", keys[k][0], keys[k][1]);
+    fputs(end_help, stdout);
+    return STATUS_OK;
 }
 
 static int print_version(void) {
@@ -229,14 +277,13 @@ int main(int argument_count, char **arguments) {
     int key;
     while ((key = getopt_long(argument_count, arguments, "", long_options, NULL)) != -1) {
         if (key == KEY_VERSION) return print_version();
-        if (key == KEY_HELP) {
-            fputs(help_text, stdout);
-            return STATUS_OK;
-        }
+        if (key == KEY_HELP) return print_help();
         if (!apply_option(&picture, key)) return usage_error();
     }
     if (!check_paths(&picture, arguments + optind, argument_count - optind) ||
-        !check_light(&picture.light) || !check_frame(&picture))
+        !check_light(&picture.light) || !check_window(&picture) || !check_frame(&picture))
         return usage_error();
-    return view_picture_make(&picture) ? STATUS_OK : STATUS_FAILED;
+    const bool done =
+        picture.png_path ? view_picture_make(&picture) : view_window_run(&picture, picture.keys);
+    return done ? STATUS_OK : STATUS_FAILED;
 }

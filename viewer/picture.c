@@ -6,14 +6,6 @@
 #include "target.h"
 #include <string.h>
 
-/// Lines keep their proportion to the picture, but stay visible in a small one.
-static float line_scale(const view_picture *picture) {
-    static const float usual = 960;
-    const uint32_t width = picture->width, height = picture->height;
-    const float scale = (float)(width < height ? width : height) / usual;
-    return scale > 0.7f ? scale : 0.7f;
-}
-
 static bool upload_vertices(view_renderer *renderer, const view_scene *scene) {
     uint64_t vertex_count = 0;
     for (uint32_t i = 0; i < scene->surface_count; i++)
@@ -32,7 +24,8 @@ static bool draw(const view_gl *gl, const view_scene *scene, const view_picture 
     view_frame frame = {
         .width = target->width,
         .height = target->height,
-        .pixel_scale = (float)target->pixel_scale * line_scale(picture),
+        .pixel_scale =
+            (float)target->pixel_scale * view_line_scale(picture->width, picture->height),
         .colours = picture->colours,
         .vertex_light = scene->light_mode != VIEW_LIGHT_NONE,
         .flat_shading = picture->flat_shading,
@@ -40,11 +33,11 @@ static bool draw(const view_gl *gl, const view_scene *scene, const view_picture 
         .control_mesh = picture->control_mesh,
     };
     const double aspect = (double)picture->width / picture->height;
-    if (scene->frame.has_camera && !picture->overview) {
-        frame.camera = view_camera_of_frame(&scene->frame.camera, aspect);
-    } else if (!view_scene_frame(scene, aspect, picture->control_mesh, &frame.camera)) {
+    limni_camera camera = scene->frame.camera;
+    if ((!scene->frame.has_camera || picture->overview) &&
+        !view_scene_frame(scene, aspect, picture->control_mesh, &camera))
         return false;
-    }
+    frame.camera = view_camera_matrices(&camera, aspect);
 
     view_renderer *const renderer = view_renderer_create(gl, scene);
     const bool drawn =
@@ -58,7 +51,7 @@ static bool draw_and_write(const view_scene *scene, const view_picture *picture)
     if (!view_gl_load(&gl, view_context_function)) return false;
     view_target target;
     view_image image = {0};
-    const bool done = view_target_create(&target, &gl, picture->width, picture->height) &&
+    const bool done = view_target_create(&target, &gl, picture->width, picture->height, true) &&
                       draw(&gl, scene, picture, &target) && view_target_read(&target, &image) &&
                       view_image_write_png(&image, picture->png_path);
     view_image_free(&image);

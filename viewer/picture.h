@@ -9,7 +9,8 @@
 
 typedef struct view_picture {
     const char *limn_path;
-    const char *png_path;
+    const char *png_path;      ///< NULL: a window instead
+    const char *keys;          ///< pressed in the window, for tests; or NULL
     limni_frame_options frame; ///< checked
     uint32_t width, height;
     view_light light;

@@ -379,6 +379,12 @@ static bool draw_overlay(view_renderer *renderer, const view_frame *frame) {
     return true;
 }
 
+float view_line_scale(uint32_t width, uint32_t height) {
+    static const float usual = 960;
+    const float scale = (float)(width < height ? width : height) / usual;
+    return scale > 0.7f ? scale : 0.7f;
+}
+
 view_vertex *view_renderer_map(view_renderer *renderer, uint64_t vertex_count) {
     if (vertex_count <= INT32_MAX && vertex_count <= SIZE_MAX / sizeof(view_vertex) / 8)
         return view_stream_map(&renderer->vertices, (size_t)vertex_count);

@@ -12,10 +12,11 @@ typedef struct view_renderer view_renderer;
 /// What surfaces are coloured by. The shader knows them by number.
 typedef enum view_colours {
     VIEW_COLOURS_MATERIALS, ///< and clay where there are none
-    VIEW_COLOURS_CLAY,
     VIEW_COLOURS_LEVELS,
-    VIEW_COLOURS_UV,     ///< a chequered pattern in texture coordinates
-    VIEW_COLOURS_NORMALS ///< and no light
+    VIEW_COLOURS_NORMALS, ///< and no light
+    VIEW_COLOURS_UV,      ///< a chequered pattern in texture coordinates
+    VIEW_COLOURS_CLAY,
+    VIEW_COLOURS_COUNT
 } view_colours;
 
 /// One picture.
@@ -30,6 +31,10 @@ typedef struct view_frame {
     bool control_mesh;
     bool unsewn; ///< patches are not sewn to coarser neighbours: cracks show
 } view_frame;
+
+/// The size of a pixel of line width in a picture: lines keep their proportion to it, but stay
+/// visible in a small one.
+float view_line_scale(uint32_t width, uint32_t height);
 
 /// Uploads what stays the same in all frames of a scene, which must outlive the renderer, as must
 /// `gl`. Reports why and returns NULL on failure.

@@ -172,11 +172,12 @@ static bool open_meshes(view_scene *scene, limni_frame_options options, const vi
                         uint32_t first, uint32_t count) {
     if (!limni_moment_make(&scene->moment, &scene->pack, first, count, &options))
         return view_fail("%s", options.error);
-    const limni_bounds bounds = limni_moment_bounds(&scene->moment);
-    if (!limni_frame_resolve(&options, &bounds, &scene->frame))
+    scene->first_mesh = first;
+    scene->bounds = limni_moment_bounds(&scene->moment);
+    if (!limni_frame_resolve(&options, &scene->bounds, &scene->frame))
         return view_fail("%s", options.error);
     scene->light_mode = light->mode;
-    if (light->mode != VIEW_LIGHT_NONE && !view_lamps_make(&scene->lamps, light, &bounds))
+    if (light->mode != VIEW_LIGHT_NONE && !view_lamps_make(&scene->lamps, light, &scene->bounds))
         return false;
     if (!view_albedo_make(&scene->albedo, &scene->pack)) return false;
     scene->surfaces = calloc((size_t)count + 1, sizeof *scene->surfaces);
@@ -197,10 +198,8 @@ static bool open_meshes(view_scene *scene, limni_frame_options options, const vi
 bool view_scene_open(view_scene *scene, const char *path, const limni_frame_options *options,
                      const view_light *light, long mesh_index) {
     *scene = (view_scene){0};
-    char error[512];
-    if (!limni_blob_file_open(&scene->blob, path, error, sizeof error))
-        return view_fail("%s", error);
-    const limn_result result = limn_pack_open(&scene->pack, scene->blob.bytes, scene->blob.size);
+    if (!view_asset_open(&scene->asset, path)) return false;
+    const limn_result result = limn_pack_open(&scene->pack, scene->asset.bytes, scene->asset.size);
     if (result != LIMN_OK) return view_fail("%s: %s", path, limn_result_text(result));
 
     const uint32_t mesh_count = scene->pack.mesh_count;
@@ -226,7 +225,7 @@ void view_scene_close(view_scene *scene) {
         free(scene->templates[domain].indices);
         free(scene->templates[domain].templates);
     }
-    limni_blob_file_close(&scene->blob);
+    view_asset_close(&scene->asset);
     *scene = (view_scene){0};
 }
 
@@ -251,7 +250,7 @@ static void include_controls(view_framing *framing, const view_surface *surface)
 }
 
 bool view_scene_frame(const view_scene *scene, double aspect, bool with_controls,
-                      view_camera *camera) {
+                      limni_camera *camera) {
     view_framing framing = view_framing_start(aspect);
     for (uint32_t i = 0; i < scene->surface_count; i++) {
         if (!include_finest(&framing, &scene->surfaces[i].mesh)) return false;

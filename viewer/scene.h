@@ -4,7 +4,7 @@
 #define VIEW_SCENE_H
 
 #include "albedo.h"
-#include "blob_file.h"
+#include "asset.h"
 #include "camera.h"
 #include "control_mesh.h"
 #include "light.h"
@@ -46,9 +46,10 @@ typedef struct view_surface {
 } view_surface;
 
 typedef struct view_scene {
-    limni_blob_file blob;
+    view_asset asset;
     limn_pack pack;
     limni_moment moment;
+    limni_bounds bounds; ///< in that moment
     limni_frame frame;
     view_light_mode light_mode;
     view_lamps lamps; ///< unless that is VIEW_LIGHT_NONE
@@ -56,6 +57,7 @@ typedef struct view_scene {
     view_templates templates[LIMN_DOMAIN_COUNT]; ///< of the domains that surfaces have
     view_surface *surfaces;
     uint32_t surface_count;
+    uint32_t first_mesh; ///< of the pack, that the first surface shows
 } view_scene;
 
 enum { VIEW_ALL_MESHES = -1 };
@@ -80,6 +82,6 @@ void view_vertices_describe(const view_surface *surface, uint32_t begin, uint32_
 /// pictures of different levels lie on top of each other; and the control points, if asked to.
 /// Reports why and returns false on failure.
 bool view_scene_frame(const view_scene *scene, double aspect, bool with_controls,
-                      view_camera *camera);
+                      limni_camera *camera);
 
 #endif

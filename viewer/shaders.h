@@ -111,7 +111,7 @@ static const char surface_fragment_source[] =
     "}\n"
     "vec3 surface_colour() {\n" // view_colours
     "    vec3 material = texture(materials, surface.texel).rgb;\n"
-    "    if (colours == 2.0) return level_colour(surface.level);\n"
+    "    if (colours == 1.0) return level_colour(surface.level);\n"
     "    if (colours == 3.0) return chequer(surface.texel.xy);\n"
     "    return colours == 0.0 && surface.texel.z < 254.5 ? material : clay;\n"
     "}\n"
@@ -161,7 +161,7 @@ static const char surface_fragment_source[] =
     "    }\n"
     "    vec3 light = vertex_light > 0.0 ? 2.0 * albedo * surface.light\n"
     "                                    : 1.0 - exp(-1.15 * shade(albedo, normal, eye));\n"
-    "    if (colours == 4.0) light = pow(0.5 + 0.5 * normal, vec3(2.2));\n"
+    "    if (colours == 2.0) light = pow(0.5 + 0.5 * normal, vec3(2.2));\n"
     "#ifdef WIREFRAME\n"
     "    light = mix(light, vec3(0.012, 0.014, 0.018), lines());\n"
     "#endif\n"

@@ -32,11 +32,12 @@ static void create_depth_buffer(view_target *target, GLsizei sample_count) {
                                 target->depth_buffer);
 }
 
-bool view_target_create(view_target *target, const view_gl *gl, uint32_t width, uint32_t height) {
+bool view_target_create(view_target *target, const view_gl *gl, uint32_t width, uint32_t height,
+                        bool fine) {
     GLint size_max = 0, sample_max = 0;
     gl->GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &size_max);
     gl->GetIntegerv(GL_MAX_SAMPLES, &sample_max);
-    const uint32_t scale = choose_pixel_scale(width, height, (uint32_t)size_max);
+    const uint32_t scale = fine ? choose_pixel_scale(width, height, (uint32_t)size_max) : 1;
     *target = (view_target){
         .gl = gl, .width = width * scale, .height = height * scale, .pixel_scale = scale};
     gl->GenFramebuffers(2, target->framebuffers);
@@ -54,17 +55,33 @@ bool view_target_create(view_target *target, const view_gl *gl, uint32_t width, 
                      target->height, status);
 }
 
+void view_target_bind(const view_target *target) {
+    target->gl->BindFramebuffer(GL_FRAMEBUFFER, target->framebuffers[MULTISAMPLED]);
+}
+
+static void copy(const view_target *target, GLuint from, GLuint to) {
+    const view_gl *const gl = target->gl;
+    const GLint width = (GLint)target->width, height = (GLint)target->height;
+    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, from);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
+    gl->BlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void view_target_show(const view_target *target) {
+    copy(target, target->framebuffers[MULTISAMPLED], target->framebuffers[RESOLVED]);
+    target->gl->Disable(GL_FRAMEBUFFER_SRGB); // the bytes as they are, already encoded
+    copy(target, target->framebuffers[RESOLVED], 0);
+}
+
 bool view_target_read(const view_target *target, view_image *image) {
     const view_gl *const gl = target->gl;
     const GLint width = (GLint)target->width, height = (GLint)target->height;
     if (!view_image_create(image, target->width, target->height)) return false;
-    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, target->framebuffers[MULTISAMPLED]);
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, target->framebuffers[RESOLVED]);
-    gl->BlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    copy(target, target->framebuffers[MULTISAMPLED], target->framebuffers[RESOLVED]);
     gl->BindFramebuffer(GL_READ_FRAMEBUFFER, target->framebuffers[RESOLVED]);
     gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl->ReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, image->pixels);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, target->framebuffers[MULTISAMPLED]);
+    view_target_bind(target);
     if (!view_gl_check(gl, "reading the picture")) return false;
     view_image_flip(image);
     if (target->pixel_scale == 2) view_image_halve(image);

@@ -18,9 +18,17 @@ typedef struct view_target {
     GLuint depth_buffer;
 } view_target;
 
-/// Creates and binds a target for a picture of the given size. Reports why and returns false on
-/// failure; destroy the target in either case.
-bool view_target_create(view_target *target, const view_gl *gl, uint32_t width, uint32_t height);
+/// Creates and binds a target for a picture of the given size: four samples per pixel, or four
+/// times as many where `fine` and not too much. Reports why and returns false on failure; destroy
+/// the target in either case.
+bool view_target_create(view_target *target, const view_gl *gl, uint32_t width, uint32_t height,
+                        bool fine);
+
+/// Binds the target to be drawn into again.
+void view_target_bind(const view_target *target);
+
+/// Copies what was drawn to the window, which must have the size of the target.
+void view_target_show(const view_target *target);
 
 /// Reads what was drawn. Reports why and returns false on failure; free the image in either case.
 bool view_target_read(const view_target *target, view_image *image);
