@@ -144,7 +144,7 @@ static bool check_eye(limni_frame_options *options) {
     static const int dependent[] = {LIMNI_FRAME_TARGET,   LIMNI_FRAME_UP,   LIMNI_FRAME_FOV,
                                     LIMNI_FRAME_VIEWPORT, LIMNI_FRAME_NEAR, LIMNI_FRAME_FAR,
                                     LIMNI_FRAME_CULL,     LIMNI_FRAME_LOD,  LIMNI_FRAME_TOLERANCE};
-    if (limni_frame_given(options, LIMNI_FRAME_EYE) || options->own_eye) return true;
+    if (limni_frame_given(options, LIMNI_FRAME_EYE) || options->live) return true;
     for (size_t d = 0; d < sizeof dependent / sizeof *dependent; d++) {
         if (!limni_frame_given(options, dependent[d])) continue;
         if (dependent[d] == LIMNI_FRAME_LOD && options->desc.lod == LIMN_LOD_UNIFORM) continue;

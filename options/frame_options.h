@@ -73,7 +73,8 @@ enum limni_frame_key {
 
 typedef struct limni_frame_options {
     uint32_t given; ///< see limni_frame_given()
-    bool own_eye;   ///< the program has a camera: options that need an eye do without --eye
+    bool live;      ///< what is shown moves: it has an eye without --eye, and without --clip the
+                    ///< first clip of the file
     float eye[3], target[3], up[3];
     float fov;              ///< degrees
     uint32_t width, height; ///< of the viewport in pixels

@@ -17,12 +17,17 @@ typedef struct motion {
     float *matrices; ///< [joint_count][3][4]
 } motion;
 
+/// Whether a clip is to be shown, named or not.
+static bool has_clip(const limn_pack *pack, const limni_frame_options *options) {
+    return options->clip || (options->live && limn_pack_clip_count(pack) > 0);
+}
+
 static bool find_clip(const limn_pack *pack, limni_frame_options *options, limn_clip *clip) {
     char names[128] = "";
     const uint32_t count = limn_pack_clip_count(pack);
     for (uint32_t c = 0; c < count; c++) {
         *clip = limn_pack_clip(pack, c);
-        if (strcmp(clip->name, options->clip) == 0) return true;
+        if (!options->clip || strcmp(clip->name, options->clip) == 0) return true;
         const size_t length = strlen(names);
         snprintf(names + length, sizeof names - length, "%s%s", c ? ", " : "", clip->name);
     }
@@ -98,9 +103,9 @@ bool limni_moment_make(limni_moment *moment, const limn_pack *pack, uint32_t fir
     for (uint32_t m = 0; m < count; m++)
         moment->meshes[m].mesh = limn_pack_mesh(pack, first + m);
     limn_clip clip;
-    const bool has_clip = limni_frame_given(options, LIMNI_FRAME_CLIP);
-    motion by = {.pack = pack, .clip = has_clip ? &clip : NULL, .time = options->time};
-    return (!has_clip || find_clip(pack, options, &clip)) &&
+    const bool moving = has_clip(pack, options);
+    motion by = {.pack = pack, .clip = moving ? &clip : NULL, .time = options->time};
+    return (!moving || find_clip(pack, options, &clip)) &&
            (move_all(moment, &by, first) ||
             limni_frame_refuse(options, "out of memory for control points"));
 }

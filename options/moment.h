@@ -16,7 +16,7 @@ typedef struct limni_moment {
     uint32_t mesh_count;
 } limni_moment;
 
-/// Moves meshes [first, first + count) of a pack as --clip and --time say; without them joints and
+/// Moves meshes [first, first + count) of a pack as --clip and --time say; without a clip joints and
 /// morph targets are at rest. On failure the options hold the error. To be freed in either case.
 bool limni_moment_make(limni_moment *moment, const limn_pack *pack, uint32_t first, uint32_t count,
                        limni_frame_options *options);

@@ -228,13 +228,13 @@ static bool check_light(const view_light *light) {
 /// A picture of a frame has the size of its viewport.
 static bool check_frame(view_picture *picture) {
     limni_frame_options *const frame = &picture->frame;
-    frame->own_eye = !picture->png_path;
+    frame->live = !picture->png_path;
     if (!limni_frame_options_check(frame)) return view_fail("%s", frame->error);
     const bool has_eye = limni_frame_given(frame, LIMNI_FRAME_EYE);
     if (picture->overview && !has_eye) return view_fail("--overview: there is no --eye");
     if (picture->width) return true;
-    picture->width = has_eye || frame->own_eye ? frame->width : 1280;
-    picture->height = has_eye || frame->own_eye ? frame->height : 960;
+    picture->width = has_eye || frame->live ? frame->width : 1280;
+    picture->height = has_eye || frame->live ? frame->height : 960;
     return (picture->width <= VIEW_TARGET_SIZE_MAX && picture->height <= VIEW_TARGET_SIZE_MAX) ||
            view_fail("--viewport %ux%u: a picture has at most %d pixels a side; give its --size",
                      frame->width, frame->height, VIEW_TARGET_SIZE_MAX);

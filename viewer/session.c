@@ -27,7 +27,7 @@ static void choose_clip(view_session *session, uint32_t index) {
 
 static void choose_named_clip(view_session *session, const limni_frame_options *options) {
     choose_clip(session, 0);
-    if (!limni_frame_given(options, LIMNI_FRAME_CLIP)) return;
+    if (!options->clip) return;
     for (uint32_t c = 0; strcmp(session->clip.name, options->clip) != 0; c++) // the scene has it
         choose_clip(session, c);
     session->time = options->time;
@@ -72,7 +72,10 @@ static void fly(view_session *session, view_key key, float seconds) {
         [VIEW_KEY_LEFT] = {-1, 0, 0},    [VIEW_KEY_RIGHT] = {1, 0, 0},
         [VIEW_KEY_DOWN] = {0, -1, 0},    [VIEW_KEY_UP] = {0, 1, 0},
     };
-    const float speed = 0.8f * view_motion_distance(&session->camera); // units per second
+    // In a second, through what is seen at the target once and a half.
+    const float half_height =
+        tanf(session->camera.fov / 2) * view_motion_distance(&session->camera);
+    const float speed = 3 * half_height;
     float along[3];
     for (int axis = 0; axis < 3; axis++)
         along[axis] = directions[key][axis] * speed * seconds;

@@ -95,7 +95,8 @@ static void name_file(view_statistics *statistics, const char *path) {
 static void take_dropped(window *self) {
     if (!self->dropped) return;
     view_picture options = *self->options;
-    options.frame.given &= ~(1u << (LIMNI_FRAME_CLIP - LIMNI_FRAME_FIRST));
+    options.frame.clip = NULL;
+    options.frame.time = 0;
     options.mesh_index = VIEW_ALL_MESHES;
     view_show *const show = view_show_open(&self->gl, self->workers, self->dropped, &options);
     const double aspect = (double)self->target.width / self->target.height;
