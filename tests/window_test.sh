@@ -2,22 +2,23 @@
 # SPDX-License-Identifier: MIT
 # Opens the window of limn-view under Xvfb, presses keys, and compares what it shows with pictures made without one.
 #
-# usage: window_test.sh LIMN_VIEW COMPARE_PICTURES FILE.limn OUTPUT_FOLDER
+# usage: window_test.sh LIMN_VIEW COMPARE_PICTURES FILE.limn MESH.obj OUTPUT_FOLDER
 # Exit status 77: there is no Xvfb. LIMN_TEST_ASSETS may name a folder with an animated mesh.
 set -u
 
-if [ $# -ne 4 ]; then
-    echo "usage: $0 LIMN_VIEW COMPARE_PICTURES FILE.limn OUTPUT_FOLDER" >&2
+if [ $# -ne 5 ]; then
+    echo "usage: $0 LIMN_VIEW COMPARE_PICTURES FILE.limn MESH.obj OUTPUT_FOLDER" >&2
     exit 2
 fi
 view=$1
 compare=$2
 file=$3
+mesh=$4
 failures=0
 command -v Xvfb >/dev/null || exit 77
 
-mkdir -p "$4" || exit 1
-folder=$(mktemp -d "$4/window_test.XXXXXX") || exit 1
+mkdir -p "$5" || exit 1
+folder=$(mktemp -d "$5/window_test.XXXXXX") || exit 1
 cd "$folder" || exit 1
 
 fail() {
@@ -107,6 +108,12 @@ light="--light exact --spot 0.5,2.5,2 --level 2"
 window light "$file" "h,f12,o,10,f12" $light
 expect light.1 0.5 "$file" $light
 expect_different light.1 light.2
+
+# A mesh file that is dropped, after one that cannot be read.
+window dropped "$file" "h,f12,+missing.obj,f12,+$mesh,f12" --level 2 2>errors
+grep -q missing.obj errors || fail "a missing file was dropped, and nothing said"
+expect_same dropped.1 dropped.2
+expect dropped.3 0.5 "$mesh" --level 2
 
 # An animated mesh, baked as it is opened.
 fox=${LIMN_TEST_ASSETS:-}/animated/Fox.glb

@@ -14,9 +14,9 @@ static const char *const names[] = {
 };
 
 /// Takes the first word off the text. False at its end, or where there is no room for it.
-static bool take_word(const char **text, char word[16]) {
+static bool take_word(const char **text, char word[VIEW_SCRIPT_WORD_MAX]) {
     const size_t length = strcspn(*text, ",");
-    if (length == 0 || length > 15) return false;
+    if (length == 0 || length >= VIEW_SCRIPT_WORD_MAX) return false;
     memcpy(word, *text, length);
     word[length] = '\0';
     *text += length + ((*text)[length] == ',');
@@ -32,20 +32,29 @@ static bool find_key(const char *word, view_key *key) {
 }
 
 bool view_script_check(const char *text) {
-    char word[16];
+    char word[VIEW_SCRIPT_WORD_MAX];
     view_key key;
     uint32_t frames;
     while (take_word(&text, word)) {
-        if (!find_key(word, &key) && !limni_parse_number(word, FRAMES_MAX, &frames)) return false;
+        if (word[0] != '+' && !find_key(word, &key) &&
+            !limni_parse_number(word, FRAMES_MAX, &frames))
+            return false;
     }
     return *text == '\0';
 }
 
-bool view_script_next(view_script *script, view_key *key) {
-    char word[16];
-    if (script->wait > 0 && --script->wait > 0) return false;
-    *key = VIEW_KEY_CLOSE;
-    if (!take_word(&script->rest, word) || find_key(word, key)) return true;
-    limni_parse_number(word, FRAMES_MAX, &script->wait);
-    return false;
+view_script_event view_script_next(view_script *script) {
+    view_script_event event = {0};
+    char word[VIEW_SCRIPT_WORD_MAX];
+    if (script->wait > 0 && --script->wait > 0) return event;
+    if (!take_word(&script->rest, word)) {
+        event.is_key = true;
+        event.key = VIEW_KEY_CLOSE;
+    } else if (word[0] == '+') {
+        memcpy(event.dropped, word + 1, strlen(word));
+    } else {
+        event.is_key = find_key(word, &event.key);
+        if (!event.is_key) limni_parse_number(word, FRAMES_MAX, &script->wait);
+    }
+    return event;
 }

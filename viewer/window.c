@@ -80,10 +80,14 @@ static void on_scroll(GLFWwindow *glfw, double x, double y) {
     view_motion_zoom(&self->session.camera, (float)pow(0.9, y));
 }
 
+static void drop(window *self, const char *path) {
+    free(self->dropped);
+    self->dropped = strdup(path);
+}
+
 static void on_drop(GLFWwindow *glfw, int count, const char **paths) {
     window *const self = glfwGetWindowUserPointer(glfw);
-    free(self->dropped);
-    self->dropped = count > 0 ? strdup(paths[0]) : NULL;
+    if (count > 0) drop(self, paths[0]);
 }
 
 static void name_file(view_statistics *statistics, const char *path) {
@@ -111,6 +115,19 @@ static void take_dropped(window *self) {
     self->dropped = NULL;
 }
 
+static void follow_script(window *self, float step) {
+    const view_script_event event = view_script_next(&self->script);
+    if (event.is_key) view_session_press(&self->session, event.key, step);
+    if (*event.dropped) drop(self, event.dropped);
+}
+
+static void press_held(window *self, float step) {
+    for (int key = 0; key <= VIEW_KEY_HELD_LAST; key++) {
+        if (glfwGetKey(self->glfw, key_codes[key]) == GLFW_PRESS)
+            view_session_press(&self->session, (view_key)key, step);
+    }
+}
+
 /// Takes in what was pressed, and lets time pass. Returns the seconds since the last frame.
 static double take_input(window *self) {
     static const double scripted_step = 1.0 / 60, longest_step = 0.1;
@@ -118,14 +135,12 @@ static double take_input(window *self) {
     const float step = (float)(self->scripted ? scripted_step : fmin(real_step, longest_step));
     self->last_time = now;
     glfwPollEvents();
-    take_dropped(self);
-    view_key key;
-    if (self->scripted && view_script_next(&self->script, &key))
-        view_session_press(&self->session, key, step);
-    for (int held = 0; held <= VIEW_KEY_HELD_LAST && !self->scripted; held++) {
-        if (glfwGetKey(self->glfw, key_codes[held]) == GLFW_PRESS)
-            view_session_press(&self->session, (view_key)held, step);
+    if (self->scripted) {
+        follow_script(self, step);
+    } else {
+        press_held(self, step);
     }
+    take_dropped(self);
     view_session_advance(&self->session, step);
     return real_step;
 }
