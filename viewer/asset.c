@@ -17,10 +17,20 @@ static bool is_mesh_file(const char *path) {
 #ifdef VIEW_WITH_BAKER
 
 #include "limn/bake.h"
+#include <stdio.h>
+
+static void print_note(void *user, const char *text) {
+    (void)user;
+    fprintf(stderr, "limn-view: note: %s\n", text);
+}
 
 static bool bake(view_asset *asset, const char *path) {
-    asset->baker = limn_baker_create(
-        &(limn_bake_desc){.normals = LIMN_NORMALS_EXACT, .isolate = LIMN_ISOLATE_AUTO});
+    const limn_bake_desc desc = {.normals = LIMN_NORMALS_EXACT,
+                                 .isolate = LIMN_ISOLATE_AUTO,
+                                 .repair = LIMN_REPAIR_ALL,
+                                 .non_manifold = LIMN_NON_MANIFOLD_SPLIT,
+                                 .note = print_note};
+    asset->baker = limn_baker_create(&desc);
     if (!asset->baker) return view_fail("out of memory");
     limn_bake_status status = limn_baker_add_file(asset->baker, path);
     if (status == LIMN_BAKE_OK)

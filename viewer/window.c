@@ -148,7 +148,13 @@ static double take_input(window *self) {
 // -------------------------------------------------------------------------------------------------
 // Output
 
-/// Makes the target as large as the window. False if that failed; a window without size has none.
+static bool has_size(window *self) {
+    int width, height;
+    glfwGetFramebufferSize(self->glfw, &width, &height);
+    return width > 0 && height > 0 && !glfwGetWindowAttrib(self->glfw, GLFW_ICONIFIED);
+}
+
+/// Makes the target as large as the window. False if that failed.
 static bool fit_target(window *self) {
     int width, height;
     glfwGetFramebufferSize(self->glfw, &width, &height);
@@ -199,7 +205,7 @@ static bool loop(window *self) {
     for (;;) {
         const double seconds = take_input(self);
         if (self->session.closing || glfwWindowShouldClose(self->glfw)) return true;
-        if (glfwGetWindowAttrib(self->glfw, GLFW_ICONIFIED)) {
+        if (!has_size(self)) {
             glfwWaitEvents();
         } else if (!fit_target(self) || !draw_frame(self, seconds)) {
             return false;
