@@ -180,6 +180,7 @@ bool view_game_frame(view_game *game, view_renderer *renderer, const view_moment
     plan(game, moment);
     end_stage(game, VIEW_STAGE_PLAN, &begin);
 
+    // The third of a ring that the GPU is done with: it may still be drawing the other two.
     view_vertex *const vertices = view_renderer_map(renderer, game->vertex_count);
     if (!vertices) return false;
     end_stage(game, VIEW_STAGE_MAP, &begin);
