@@ -23,10 +23,10 @@ typedef struct writer {
 } writer;
 
 #if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
+static void append(writer *out, const char *format, ...) __attribute__((format(printf, 2, 3)));
 #endif
-static void
-write(writer *out, const char *format, ...) {
+
+static void append(writer *out, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
     const int length = vsnprintf(out->to, out->left, format, arguments);
@@ -43,13 +43,13 @@ static void write_times(writer *out, const view_statistics *statistics) {
     static const char *const names[VIEW_STAGE_COUNT] = {"pose", "normals",  "plan",
                                                         "wait", "evaluate", "draw"};
     const double frame = statistics->frame_seconds;
-    write(out, "%s   %.0f fps   %.1f ms\n", statistics->name, frame > 0 ? 1 / frame : 0,
-          1e3 * frame);
+    append(out, "%s   %.0f fps   %.1f ms\n", statistics->name, frame > 0 ? 1 / frame : 0,
+           1e3 * frame);
     for (int stage = 0; stage < VIEW_STAGE_COUNT; stage++)
-        write(out, "%s %.2f  ", names[stage], 1e3 * statistics->stage_seconds[stage]);
-    write(out, "ms\n%u threads, %s mapping, %s draws\n", statistics->thread_count,
-          statistics->persistent ? "persistent" : "unsynchronised",
-          statistics->indirect ? "indirect" : "direct");
+        append(out, "%s %.2f  ", names[stage], 1e3 * statistics->stage_seconds[stage]);
+    append(out, "ms\n%u threads, %s mapping, %s draws\n", statistics->thread_count,
+           statistics->persistent ? "persistent" : "unsynchronised",
+           statistics->indirect ? "indirect" : "direct");
 }
 
 static void write_counts(writer *out, const view_game *game) {
@@ -58,26 +58,26 @@ static void write_counts(writer *out, const view_game *game) {
         triangle_count += game->actors[a].surface->plan.index_count / 3;
         patch_count += game->actors[a].surface->plan.patch_count;
     }
-    write(out, "%llu vertices, %llu triangles, %llu patches, %.0f KB\n",
-          (unsigned long long)game->vertex_count, (unsigned long long)triangle_count,
-          (unsigned long long)patch_count,
-          (double)(game->vertex_count * sizeof(view_vertex)) / 1024);
+    append(out, "%llu vertices, %llu triangles, %llu patches, %.0f KB\n",
+           (unsigned long long)game->vertex_count, (unsigned long long)triangle_count,
+           (unsigned long long)patch_count,
+           (double)(game->vertex_count * sizeof(view_vertex)) / 1024);
 }
 
 static void write_levels(writer *out, const view_session *session) {
     const limn_lod_desc *const lod = &session->lod;
     switch (lod->lod) {
     case LIMN_LOD_UNIFORM:
-        write(out, "level %.2f", (double)lod->level);
+        append(out, "level %.2f", (double)lod->level);
         break;
     case LIMN_LOD_ERROR:
-        write(out, "levels by error, %.2f px", lod->pixels > 0 ? (double)lod->pixels : 1);
+        append(out, "levels by error, %.2f px", lod->pixels > 0 ? (double)lod->pixels : 1);
         break;
     default:
-        write(out, "levels by length, %.2f px", lod->pixels > 0 ? (double)lod->pixels : 8);
+        append(out, "levels by length, %.2f px", lod->pixels > 0 ? (double)lod->pixels : 8);
     }
-    write(out, "%s%s%s\n", lod->no_morph ? ", no morphing" : "",
-          session->frame.unsewn ? ", no seams" : "", session->culling ? "" : ", no culling");
+    append(out, "%s%s%s\n", lod->no_morph ? ", no morphing" : "",
+           session->frame.unsewn ? ", no seams" : "", session->culling ? "" : ", no culling");
 }
 
 static void write_moment(writer *out, const view_session *session) {
@@ -85,12 +85,12 @@ static void write_moment(writer *out, const view_session *session) {
                                          [VIEW_LIGHT_BASE] = "",
                                          [VIEW_LIGHT_INTERPOLATED] = "interpolated",
                                          [VIEW_LIGHT_EXACT] = "exact"};
-    write(out, "light %s%s", lights[session->light.mode], session->light_moves ? ", moving" : "");
+    append(out, "light %s%s", lights[session->light.mode], session->light_moves ? ", moving" : "");
     if (session->clip_index == LIMN_NONE) return;
     const float duration = session->clip.duration;
-    write(out, "\n%s %.2f of %.2f s%s", session->clip.name,
-          (double)(duration > 0 ? fmodf(session->time, duration) : 0), (double)duration,
-          session->playing ? "" : ", paused");
+    append(out, "\n%s %.2f of %.2f s%s", session->clip.name,
+           (double)(duration > 0 ? fmodf(session->time, duration) : 0), (double)duration,
+           session->playing ? "" : ", paused");
 }
 
 void view_statistics_write(const view_statistics *statistics, const view_session *session,
