@@ -34,12 +34,14 @@ static void choose_named_clip(view_session *session, const limni_frame_options *
 }
 
 bool view_session_restart(view_session *session, const view_scene *scene, double aspect) {
+    static const float room = 1.4f; // for what a clip moves out of its first picture
     limni_camera camera;
     if (!view_scene_frame(scene, aspect, false, &camera)) return false;
     session->scene = scene;
-    session->home = session->camera = camera;
     measure_bounds(session);
     choose_clip(session, 0);
+    if (session->playing && session->clip_index != LIMN_NONE) view_motion_zoom(&camera, room);
+    session->home = session->camera = camera;
     return true;
 }
 
