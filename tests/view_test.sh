@@ -18,9 +18,7 @@ failures=0
 mkdir -p "$folder" || exit 1
 folder=$(mktemp -d "$folder/view_test.XXXXXX") || exit 1
 
-# OSMesa keeps a few hundred bytes for itself until the process ends.
-echo "leak:libOSMesa" >"$folder/leaks"
-export LSAN_OPTIONS="suppressions=$folder/leaks:print_suppressions=0"
+export LSAN_OPTIONS="suppressions=$(cd "$(dirname "$0")" && pwd)/leaks.txt:print_suppressions=0"
 
 fail() {
     echo "FAILED: $*" >&2

@@ -26,6 +26,7 @@ static void print_note(void *user, const char *text) {
 
 static bool bake(view_asset *asset, const char *path) {
     const limn_bake_desc desc = {.normals = LIMN_NORMALS_EXACT,
+                                 .images = true,
                                  .isolate = LIMN_ISOLATE_AUTO,
                                  .repair = LIMN_REPAIR_ALL,
                                  .non_manifold = LIMN_NON_MANIFOLD_SPLIT,
