@@ -143,6 +143,14 @@ static bool read_output(frame_script *script, const line *at) {
     return true;
 }
 
+static bool read_normals(frame_script *script, const line *at) {
+    static const char *const names[] = {"none", "all", NULL};
+    int normals;
+    if (!read_choice(at->words[1], names, &normals)) return false;
+    script->normals = normals == 1;
+    return true;
+}
+
 static bool read_light(frame_script *script, const line *at) {
     static const char *const names[] = {"none", "interpolated", "exact", NULL};
     int light;
@@ -256,7 +264,8 @@ bool frame_script_read(frame_script *script, const char *name) {
                              .viewport = {1280, 720},
                              .fov = 0.698f,
                              .lod = {.lod = LIMN_LOD_ERROR, .pixels = 1},
-                             .packed = true};
+                             .packed = true,
+                             .normals = true};
     const bool is_name = !strchr(name, '/') && !strchr(name, '.');
     snprintf(path, sizeof path, is_name ? BENCH_SCENES "/%s.scene" : "%s", name);
     FILE *const file = fopen(path, "r");

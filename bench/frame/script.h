@@ -24,7 +24,8 @@ enum { FRAME_KEY_MAX = 64, FRAME_LIGHT_MAX = 8, FRAME_COUNT_MAX = 65536 };
     X(fov, 1, 1, "DEGREES", "vertical angle of view (default 40)")                                 \
     X(camera, 7, 7, "T  EX EY EZ  TX TY TZ",                                                       \
       "eye and target at T, 0 to 1: the first and the last frame")                                 \
-    X(output, 1, 1, "packed | float", "8 + 4 bytes of position and normal, or 12 + 12")            \
+    X(output, 1, 1, "packed | float", "positions of 8 bytes and normals of 4, or both of 12")      \
+    X(normals, 1, 1, "all | none", "none: where light is all that they are for")                   \
     X(light, 1, 1, "none | interpolated | exact", "4 bytes of colour more, but for none")          \
     X(ambient, 3, 3, "R G B", "light from everywhere")                                             \
     X(sun, 6, 6, "DX DY DZ  R G B", "a directional light: the way that it goes, and its colour")   \
@@ -63,7 +64,7 @@ typedef struct frame_script {
     float fov; ///< radians
     frame_key keys[FRAME_KEY_MAX];
     uint32_t key_count;
-    bool packed;
+    bool packed, normals;
     frame_light light;
     float ambient[3];
     limn_light lights[FRAME_LIGHT_MAX];

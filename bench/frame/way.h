@@ -13,7 +13,7 @@
     X(REFINE, "refine", "points behind the control points")                                        \
     X(NORMALS, "normals", "limit normals of the base vertices")                                    \
     X(PLAN, "plan", "views, who is in view, and levels")                                           \
-    X(EVALUATE, "evaluate", "float positions and unit normals")                                    \
+    X(EVALUATE, "evaluate", "positions and unit normals, as floats")                               \
     X(LIGHT, "light", "what colours add to that")                                                  \
     X(PACK, "pack", "what packed formats add to that")
 

@@ -17,7 +17,7 @@ typedef struct body {
 
 /// What is written of each vertex.
 typedef struct form {
-    bool packed, lit;
+    bool packed, normals, lit;
 } form;
 
 typedef struct state state;
@@ -91,7 +91,7 @@ static uint32_t find_patch(const limn_plan *plan, uint64_t vertex) {
 }
 
 static uint32_t vertex_size(form f) {
-    return (f.packed ? 12u : 24u) + (f.lit ? 4u : 0u);
+    return (f.packed ? 8u : 12u) + (f.normals ? (f.packed ? 4u : 12u) : 0u) + (f.lit ? 4u : 0u);
 }
 
 static limn_output output_of(const state *self, const body *b, const limn_lighting *lighting) {
@@ -103,7 +103,7 @@ static limn_output output_of(const state *self, const body *b, const limn_lighti
                          .position_format =
                              f.packed ? LIMN_POSITION_UNORM16X4 : LIMN_POSITION_FLOAT3,
                          .box = self->box[0],
-                         .normals = first + (f.packed ? 8 : 12),
+                         .normals = f.normals ? first + (f.packed ? 8 : 12) : NULL,
                          .normal_stride = stride,
                          .normal_format = f.packed ? LIMN_NORMAL_OCT16X2 : LIMN_NORMAL_FLOAT3,
                          .colours = f.lit ? first + stride - 4 : NULL,
@@ -190,7 +190,9 @@ static double time_form(state *self, form f) {
 /// begins in each frame. Returns what the first took.
 static double time_evaluation(state *self, frame_record *record) {
     enum { OWN, LIT, PLAIN, FORM_COUNT };
-    const form forms[FORM_COUNT] = {self->scene, {.lit = self->scene.lit}, {.lit = false}};
+    const form forms[FORM_COUNT] = {self->scene,
+                                    {false, self->scene.normals, self->scene.lit},
+                                    {false, self->scene.normals, false}};
     double seconds[FORM_COUNT];
     if (!self->splits) return record->seconds[FRAME_EVALUATE] = time_form(self, self->scene);
     for (uint32_t f = 0; f < FORM_COUNT; f++) {
@@ -209,7 +211,7 @@ static void make(void *state_, frame_record *record) {
     state *const self = state_;
     time_preparation(self, record);
     count(self, record);
-    frame_buffer_reserve(&self->output, record->vertices * vertex_size((form){.lit = true}));
+    frame_buffer_reserve(&self->output, record->vertices * vertex_size((form){false, true, true}));
     record->total = time_evaluation(self, record);
     self->turns++;
     for (int stage = 0; stage <= FRAME_PLAN; stage++)
@@ -291,9 +293,10 @@ static bool add_limn(frame_ways *ways, const frame_host *host, const char *name,
 
 bool frame_ways_add_limn(frame_ways *ways, const frame_host *host) {
     return add_limn(ways, host, "limn",
-                    (form){host->script->packed, host->script->light != FRAME_LIGHT_NONE});
+                    (form){host->script->packed, host->script->normals,
+                           host->script->light != FRAME_LIGHT_NONE});
 }
 
 bool frame_ways_add_floats(frame_ways *ways, const frame_host *host) {
-    return add_limn(ways, host, "floats", (form){.packed = false});
+    return add_limn(ways, host, "floats", (form){.normals = true});
 }
