@@ -114,11 +114,11 @@ static void write_curves(FILE *page, const frame_result *result) {
         frame_result_curve(result, w, curves + (size_t)w * frames);
     const axis a = find_axis(result, curves);
     begin_picture(page, "Frame times, median of the rounds", HEIGHT + 20);
-    write_axis(page, result, a);
     for (uint32_t w = 0; w < result->ways->count; w++) {
         write_curve(page, curves + (size_t)w * frames, frames, a, colour_of(w));
         write_key(page, w, result->ways->ways[w].name, HEIGHT + 14);
     }
+    write_axis(page, result, a);
     fprintf(page, "</svg>\n");
     free(curves);
 }
@@ -223,13 +223,16 @@ static void write_head(FILE *page, const frame_result *result) {
     bench_cpu_name(cpu, sizeof cpu);
     fprintf(page, "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>Limn: ");
     write_text(page, host->script->name);
-    fprintf(page,
-            "</title>\n<style>\n"
-            "body { font: 14px sans-serif; max-width: 60em; margin: 2em auto; color: #222 }\n"
-            "svg { width: 100%% } text { font: 11px sans-serif; fill: #222 }\n"
-            ".grid { stroke: #ddd } .budget { stroke: #c00; stroke-dasharray: 4 3 }\n"
-            "table { border-collapse: collapse } td, th { padding: 2px 8px; text-align: right }\n"
-            "tr { border-bottom: 1px solid #ddd }\n</style>\n<h1>");
+    fprintf(page, "</title>\n<style>\n"
+                  "body { font: 14px sans-serif; max-width: 64em; margin: 2em auto; color: #222 }\n"
+                  "svg { width: 100%% }\n"
+                  "text { font: 11px sans-serif; fill: #222 }\n"
+                  "text { paint-order: stroke; stroke: #fff; stroke-width: 3px }\n"
+                  ".grid { stroke: #ddd }\n"
+                  ".budget { stroke: #c00; stroke-dasharray: 4 3 }\n"
+                  "table { border-collapse: collapse; font-size: 13px }\n"
+                  "td, th { padding: 2px 8px; text-align: right }\n"
+                  "tr { border-bottom: 1px solid #ddd }\n</style>\n<h1>");
     write_text(page, host->script->name);
     fprintf(page, "</h1>\n<p>");
     write_text(page, host->actor->mix.name);
