@@ -829,6 +829,17 @@ verified() {
 if "$limn" verify torus.limn --against "$torus" 2>&1 | grep -q 'built without OpenSubdiv'; then
     echo "built without OpenSubdiv: verify is not tested"
 else
+    # The corners of a large polygon have equal weights, and all of the upper one is as far from the first point.
+    awk 'BEGIN {
+        for (k = 0; k < 400; k++) print "v", cos(3.14159265 * k / 100), sin(3.14159265 * k / 100), (k >= 200)
+        for (k = 0; k < 200; k++) print "f", k + 1, (k + 1) % 200 + 1, (k + 1) % 200 + 201, k + 201
+        printf "f"; for (k = 200; k > 0; k--) printf " %d", k; print ""
+        printf "f"; for (k = 201; k <= 400; k++) printf " %d", k; print ""
+    }' >prism.obj
+    for isolate in 0 1; do
+        works bake -q prism.obj -o prism.limn --scheme catmark --isolate $isolate
+        works verify prism.limn --against prism.obj --tolerance 3e-7
+    done
     refuses 1 'baked with --scheme none' verify flat.limn --against "$sail"
     verified torus.limn --against "$torus"
     verified --against "$sail" sail.limn

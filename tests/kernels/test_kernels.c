@@ -1050,10 +1050,35 @@ static void test_refine(const limn_kernels *kernels) {
                 (unsigned long long)hash);
 }
 
+/// A long stencil of equal weights, whose roundings all go the same way in a plain sum: to a
+/// rounding of the sum, of which 200 would make 1e-6.
+static void test_refine_long(const limn_kernels *kernels) {
+    enum { LONG = 200 };
+    limn_file_term terms[LONG];
+    const uint32_t first[] = {0, LONG};
+    float points[3 * (LONG + 1) + 1] = {0};
+    double sum = 0;
+    for (uint32_t t = 0; t < LONG; t++) {
+        terms[t] = (limn_file_term){t, 1.0f / LONG};
+        points[3 * t] = t == 0 ? 0 : 1;
+        sum += (double)terms[t].weight * (double)points[3 * t];
+    }
+    const limn_mesh mesh = {.control_count = LONG,
+                            .point_count = LONG + 1,
+                            .stencils = first,
+                            .terms = terms,
+                            .kernels = kernels};
+    limn_mesh_refine(&mesh, points);
+    CHECK_NEAR((double)points[3 * LONG], sum, (double)FLT_EPSILON);
+    CHECK(points[3 * LONG + 1] == 0 && points[3 * LONG + 2] == 0);
+}
+
 static void test_refining(bool fast) {
+    const limn_family family = fast ? LIMN_FAMILY_FAST : LIMN_FAMILY_REPRODUCIBLE;
     for (uint32_t isa = 1; isa <= LIMN_ISA_NEON; isa <<= 1) {
         if (!(limn_isa_supported() & isa)) continue;
-        test_refine(limn_kernels_select(isa, fast ? LIMN_FAMILY_FAST : LIMN_FAMILY_REPRODUCIBLE));
+        test_refine(limn_kernels_select(isa, family));
+        test_refine_long(limn_kernels_select(isa, family));
     }
 }
 
