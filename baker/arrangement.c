@@ -48,7 +48,6 @@ static limn_bake_status begin(limni_context *context, limni_arrangement *a) {
     if (a->apart) LIMNI_TRY(set_apart(context, a));
     const uint32_t face_count = a->mesh->face_count;
     LIMNI_TRY(limni_classifier_begin(context, &a->classifier, a->mesh, a->sharpness, a->rules));
-    LIMNI_TRY(limni_check_valences(context, &a->classifier));
     LIMNI_TRY(limni_assignment_begin(context, face_count, &a->assigned));
     a->class_indices = limni_allocate(context, face_count, sizeof *a->class_indices);
     if (!a->class_indices) return LIMN_BAKE_MEMORY;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "base.h"
 
+#include "classify.h"
+
 #include <string.h>
 
 void limni_place_points(const limni_stencils *stencils, float (*points)[3], uint32_t control_count,
@@ -43,6 +45,7 @@ static limn_bake_status divide_mesh(limni_context *context, const limni_rules *r
     const limni_mesh *const source = base->source;
     limni_mesh *const made = &base->refined.mesh;
     LIMNI_TRY(limni_refine(context, source, &base->source_sharpness, rules, &base->refined));
+    LIMNI_TRY(limni_check_valences(context, made, &base->refined.sharpness, rules));
     LIMNI_TRY(limni_make_stencils(context, source, &base->source_sharpness, rules, &base->refined,
                                   &base->stencils));
     const uint32_t count = source->control_count;
@@ -65,7 +68,7 @@ static limn_bake_status find_mesh(limni_context *context, const limni_rules *rul
                                   limni_base *base) {
     base->mesh = base->source;
     base->sharpness = &base->source_sharpness;
-    if (!base->divided) return LIMN_BAKE_OK;
+    if (!base->divided) return limni_check_valences(context, base->mesh, base->sharpness, rules);
     LIMNI_TRY(divide_mesh(context, rules, base));
     base->first = base->source->control_count;
     base->mesh = &base->refined.mesh;

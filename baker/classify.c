@@ -336,41 +336,66 @@ limn_bake_status limni_local_neighbourhood(limni_context *context, const limni_l
 
 // ---- Limits
 
-/// Its corner with the most edges, and how many all have.
-static uint64_t sum_edges(const limni_mesh *mesh, uint32_t face, uint32_t *widest) {
-    uint64_t sum = 0;
-    *widest = mesh->corners[mesh->offsets[face]];
-    for (uint32_t h = mesh->offsets[face]; h < mesh->offsets[face + 1]; h++) {
-        const uint32_t control = mesh->corners[h];
-        sum += mesh->valences[control];
-        if (mesh->valences[control] > mesh->valences[*widest]) *widest = control;
+/// That of `count` vertices with the most edges.
+static uint32_t find_widest(const limni_mesh *mesh, const uint32_t *controls, uint32_t count) {
+    uint32_t widest = controls[0];
+    for (uint32_t c = 1; c < count; c++) {
+        if (mesh->valences[controls[c]] > mesh->valences[widest]) widest = controls[c];
     }
-    return sum;
+    return widest;
+}
+
+static limn_bake_status check_corners(limni_context *context, const limni_mesh *mesh,
+                                      uint32_t face) {
+    const uint32_t size = limni_face_size(mesh, face);
+    const uint32_t most = LIMN_FORMAT_CONTROLS_MAX / (size == 3 ? 1 : 2);
+    const uint32_t *const corners = mesh->corners + mesh->offsets[face];
+    uint64_t sum = 0;
+    for (uint32_t c = 0; c < size; c++)
+        sum += mesh->valences[corners[c]];
+    if (sum <= most) return LIMN_BAKE_OK;
+    const uint32_t widest = find_widest(mesh, corners, size);
+    limni_place control_text, face_text;
+    return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                      "%s: %s has valence %u: the corners of %s have more than %u edges in all",
+                      limni_mesh_label(mesh), limni_control_place(mesh, widest, control_text),
+                      mesh->valences[widest], limni_face_place(mesh, face, face_text), most);
+}
+
+static limn_bake_status check_count(limni_context *context, const limni_local_base *base) {
+    const limni_mesh *const mesh = base->mesh;
+    if (base->control_count <= LIMN_FORMAT_CONTROLS_MAX) return LIMN_BAKE_OK;
+    const uint32_t widest = find_widest(mesh, base->controls, base->inner_count);
+    limni_place control_text, face_text;
+    return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                      "%s: %s has valence %u: around %s there are more than %u control points",
+                      limni_mesh_label(mesh), limni_control_place(mesh, widest, control_text),
+                      mesh->valences[widest], limni_face_place(mesh, base->face, face_text),
+                      LIMN_FORMAT_CONTROLS_MAX);
+}
+
+static limn_bake_status check_counts(limni_context *context, const limni_mesh *mesh,
+                                     const limni_mesh_sharpness *sharpness,
+                                     const limni_rules *rules) {
+    limni_classifier classifier;
+    LIMNI_TRY(limni_classifier_begin(context, &classifier, mesh, sharpness, rules));
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        if (!mesh->holes[face])
+            LIMNI_TRY(check_count(context, limni_local_base_at(&classifier, face, 0)));
+    }
+    limni_classifier_end(context, &classifier);
+    return LIMN_BAKE_OK;
 }
 
 /// The points that a patch depends on are no more than the edges of its corners, and of a quad
 /// twice as many; with a reach of 2, those are counted.
-static limn_bake_status check_size(limni_context *context, limni_classifier *classifier,
-                                   uint32_t face) {
-    const limni_mesh *const mesh = classifier->mesh;
-    const bool far = limni_scheme_of(classifier->rules, mesh->domain)->reach == 2;
-    const uint32_t most = LIMN_FORMAT_CONTROLS_MAX / (limni_face_size(mesh, face) == 3 ? 1 : 2);
-    uint32_t widest;
-    const uint64_t edges = sum_edges(mesh, face, &widest);
-    if ((far ? limni_local_base_at(classifier, face, 0)->control_count : edges) <= most)
-        return LIMN_BAKE_OK;
-    limni_place control_text, face_text;
-    return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                      "%s: %s has valence %u: %s %s %s more than %u %s", limni_mesh_label(mesh),
-                      limni_control_place(mesh, widest, control_text), mesh->valences[widest],
-                      far ? "around" : "the corners of", limni_face_place(mesh, face, face_text),
-                      far ? "there are" : "have", most, far ? "control points" : "edges in all");
-}
-
-limn_bake_status limni_check_valences(limni_context *context, limni_classifier *classifier) {
-    const limni_mesh *const mesh = classifier->mesh;
+limn_bake_status limni_check_valences(limni_context *context, const limni_mesh *mesh,
+                                      const limni_mesh_sharpness *sharpness,
+                                      const limni_rules *rules) {
+    if (limni_scheme_of(rules, mesh->domain)->reach == 2)
+        return check_counts(context, mesh, sharpness, rules);
     for (uint32_t face = 0; face < mesh->face_count; face++) {
-        if (!mesh->holes[face]) LIMNI_TRY(check_size(context, classifier, face));
+        if (!mesh->holes[face]) LIMNI_TRY(check_corners(context, mesh, face));
     }
     return LIMN_BAKE_OK;
 }

@@ -62,7 +62,9 @@ limn_bake_status limni_classifier_begin(limni_context *context, limni_classifier
 void limni_classifier_end(limni_context *context, limni_classifier *classifier);
 
 /// Refuses faces that depend on more than LIMN_FORMAT_CONTROLS_MAX points, or may do so.
-limn_bake_status limni_check_valences(limni_context *context, limni_classifier *classifier);
+limn_bake_status limni_check_valences(limni_context *context, const limni_mesh *mesh,
+                                      const limni_mesh_sharpness *sharpness,
+                                      const limni_rules *rules);
 
 /// The local base of a face in its canonical rotation. Valid until the next call.
 const limni_local_base *limni_classify(limni_classifier *classifier, uint32_t face);

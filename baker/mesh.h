@@ -17,6 +17,8 @@
 #define LIMNI_CORNERS_MAX (1u << 28)
 
 typedef struct limni_mesh {
+    const struct limni_mesh *divided; ///< the mesh that one level of subdivision made this of,
+                                      ///< which has its first control points; NULL: of the source
     const char *name;
     const char *path;                ///< NULL for a mesh from memory
     const uint32_t *control_numbers; ///< of the source, as read, from 0; NULL: the index
@@ -106,7 +108,8 @@ static inline bool limni_is_split(const limni_mesh *mesh, uint32_t control) {
            (control + 1 < mesh->control_count && origins[control + 1] == origins[control]);
 }
 
-/// "face 12 (line 40)", in the file's own numbering. Returns `text`.
+/// "face 12 (line 40)", in the file's own numbering. Of a mesh that was divided "a part of face 12
+/// (line 40)", and where a vertex is new, "a vertex of the divided mesh". Returns `text`.
 typedef char limni_place[64];
 const char *limni_face_place(const limni_mesh *mesh, uint32_t face, limni_place text);
 const char *limni_control_place(const limni_mesh *mesh, uint32_t control, limni_place text);

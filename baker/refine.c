@@ -179,6 +179,7 @@ static limn_bake_status begin_mesh(const refiner *r) {
     const uint32_t size = r->quads ? 4 : 3;
     limni_mesh *const made = &r->made->mesh;
     *made = *r->mesh;
+    made->divided = r->mesh;
     made->control_count = r->point_count;
     made->face_count = face_count;
     made->controls = NULL;

@@ -18,11 +18,14 @@ static const char *place(limni_place text, const char *what, uint32_t number, co
 
 const char *limni_face_place(const limni_mesh *mesh, uint32_t face, limni_place text) {
     const uint32_t polygon = mesh->polygons[face];
-    return place(text, "face", mesh->face_numbers[polygon] + mesh->index_base, mesh->face_lines,
-                 polygon);
+    return place(text, mesh->divided ? "a part of face" : "face",
+                 mesh->face_numbers[polygon] + mesh->index_base, mesh->face_lines, polygon);
 }
 
 const char *limni_control_place(const limni_mesh *mesh, uint32_t control, limni_place text) {
+    for (; mesh->divided; mesh = mesh->divided) {
+        if (control >= mesh->divided->control_count) return "a vertex of the divided mesh";
+    }
     const uint32_t origin = limni_origin(mesh, control);
     const uint32_t number = mesh->control_numbers ? mesh->control_numbers[origin] : origin;
     return place(text, "vertex", number + mesh->index_base, mesh->control_lines, origin);

@@ -280,6 +280,16 @@ bipyramid 2047 >points.obj
 refuses 1 'points.obj: vertex 1 (line 1) has valence 2047: around face 1 (line 2050) there are more than 2048 control points' \
     bake points.obj -o new.limn --scheme butterfly
 refuses 1 'has valence 2047: the corners of face 1 (line 2050) have more than 2048 edges in all' bake points.obj -o new.limn
+# Of a mesh that is divided first, what the file has is named, and what it has not is not.
+refuses 1 'points.obj: vertex 1 (line 1) has valence 2047: around a part of face 1 (line 2050) there are more than 2048' \
+    bake points.obj -o new.limn --scheme butterfly --isolate 1
+{
+    awk 'BEGIN { for (k = 0; k < 1030; k++) print "v", cos(6.2831853 * k / 1030), sin(6.2831853 * k / 1030), 0 }'
+    seq -s ' ' 1 1030 | sed 's/^/f /'
+} >polygon.obj
+refuses 1 'polygon.obj: a vertex of the divided mesh has valence 1030: the corners of a part of face 1 (line 1031) have more' \
+    bake polygon.obj -o new.limn --scheme catmark
+
 
 refuses 1 'missing.obj: cannot be read: No such file' bake missing.obj -o new.limn
 refuses 1 'folder' bake far -o new.limn
