@@ -129,9 +129,12 @@ limn_bake_status limni_make_faces(limni_context *context, const limni_source *so
                                   limni_mesh *mesh);
 limn_bake_status limni_tag_mesh(limni_context *context, const limni_source *source,
                                 limni_mesh *mesh);
+/// Refuses coordinates and values beyond 1e37.
+limn_bake_status limni_check_extent(limni_context *context, const limni_source *source,
+                                    const limni_mesh *mesh);
 limn_bake_status limni_connect(limni_context *context, limni_mesh *mesh);
 
-/// All of them but the last, and all.
+/// All of them but the last two, and all.
 limn_bake_status limni_mesh_begin(limni_context *context, limni_source *source, limni_mesh *mesh);
 limn_bake_status limni_mesh_build(limni_context *context, limni_source *source, limni_mesh *mesh);
 

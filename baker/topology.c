@@ -258,5 +258,6 @@ limn_bake_status limni_mesh_begin(limni_context *context, limni_source *source, 
 
 limn_bake_status limni_mesh_build(limni_context *context, limni_source *source, limni_mesh *mesh) {
     LIMNI_TRY(limni_mesh_begin(context, source, mesh));
+    LIMNI_TRY(limni_check_extent(context, source, mesh));
     return limni_connect(context, mesh);
 }

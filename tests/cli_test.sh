@@ -290,6 +290,12 @@ refuses 1 'points.obj: vertex 1 (line 1) has valence 2047: around a part of face
 refuses 1 'polygon.obj: a vertex of the divided mesh has valence 1030: the corners of a part of face 1 (line 1031) have more' \
     bake polygon.obj -o new.limn --scheme catmark
 
+# Coordinates whose sums would overflow.
+printf 'v 0 0 0\nv 1e37 0 0\nv 0 -1.1e37 0\nvt 0 0\nvt 0 2e37\nvt 1 0\nf 1/1 2/2 3/3\n' >large.obj
+refuses 1 'large.obj: a coordinate of vertex 3 (line 3) is too large: 1.1e+37; 1e37 is the most' bake large.obj -o new.limn
+sed 's/1\.1e37/1e37/' large.obj >uv.obj
+refuses 1 'uv.obj: value 2 of uv is too large: 2e+37; 1e37 is the most' bake uv.obj -o new.limn
+works bake uv.obj -q -o large.limn --no-channels --isolate 1
 
 refuses 1 'missing.obj: cannot be read: No such file' bake missing.obj -o new.limn
 refuses 1 'folder' bake far -o new.limn

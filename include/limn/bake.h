@@ -154,7 +154,7 @@ typedef struct limn_bake_channel {
 /// several tags of one edge or vertex the last one counts.
 typedef struct limn_bake_mesh {
     const char *name;
-    const float *positions; ///< [position_count][3], model units
+    const float *positions; ///< [position_count][3], model units, at most 1e37
     uint32_t position_count;
     const uint32_t *face_sizes; ///< [face_count] corners of each face, at least 3; NULL: triangles
     uint32_t face_count;
