@@ -19,8 +19,14 @@ static const char help[] =
     "double\n"
     "precision. Prints the largest and the mean difference relative to the diagonal of the "
     "bounding\n"
-    "box. The file must have been baked from that mesh, with Loop's weights and, where it has\n"
-    "creases, corners or boundaries, OpenSubdiv's rules for them.\n\n"
+    "box, and the tolerance. The file must have been baked from that mesh, as OpenSubdiv has it:\n"
+    "--scheme loop with Loop's weights, catmark, or none of a mesh that is not of triangles "
+    "alone;\n"
+    "where it has creases, corners or boundaries, with OpenSubdiv's rules for them. OpenSubdiv "
+    "has\n"
+    "no butterfly, no Warren's weights, none of Lomont's rules, and nothing like --scheme none "
+    "for\n"
+    "meshes of triangles.\n\n"
     "      --against FILE   the mesh (.obj, .off, .ply, .gltf, .glb) that was baked\n"
     "      --mesh N         which mesh of the file, from 0 (default 0)\n"
     "      --repair[=STEPS] as for limn bake, if the mesh was repaired then\n"
@@ -97,13 +103,33 @@ static int verify_channels(const arguments *given, const limn_pack *pack, const 
             &context, limni_compare_channel(&context, pack, mesh, c, given->against, &comparison));
         if (compared != LIMNI_EXIT_OK) return compared;
         printf("%s, channel %u: %llu values; largest difference, relative to their extent %g: %.3g "
-               "(face %u)\n",
+               "(face %u); tolerance %.3g\n",
                mesh->name, c, (unsigned long long)comparison.value_count, comparison.extent,
-               comparison.largest, comparison.largest_face);
+               comparison.largest, comparison.largest_face, allowed);
         if (!(comparison.largest <= allowed))
             return limni_failure("the largest difference in a channel is above %g", allowed);
     }
     return LIMNI_EXIT_OK;
+}
+
+static void print_comparison(const char *name, const limni_comparison *comparison,
+                             uint32_t face_count, double allowed) {
+    printf("%s: %llu vertices of %u faces; difference from OpenSubdiv's limit, relative to the "
+           "diagonal %g: largest %.3g (face %u), mean %.3g; tolerance %.3g\n",
+           name, (unsigned long long)comparison->vertex_count, face_count, comparison->diagonal,
+           comparison->largest, comparison->largest_face, comparison->mean, allowed);
+    if (comparison->normal_count)
+        printf("%s: angle between normals in radians: largest %.3g (face %u), mean %.3g; "
+               "%llu of %llu at degenerate points left out\n",
+               name, comparison->largest_angle, comparison->largest_angle_face,
+               comparison->mean_angle, (unsigned long long)comparison->degenerate_count,
+               (unsigned long long)(comparison->normal_count + comparison->degenerate_count));
+    fflush(stdout);
+    if (comparison->rounding > default_tolerance)
+        fprintf(stderr,
+                "note: %s: so far from the origin, floats cannot hold the mesh to better than %.2g "
+                "of its diagonal\n",
+                name, comparison->rounding);
 }
 
 static int verify(const arguments *given, const limn_pack *pack) {
@@ -117,22 +143,11 @@ static int verify(const arguments *given, const limn_pack *pack) {
     const int compared = limni_command_end(
         &context, limni_compare(&context, pack, &mesh, given->against, &comparison));
     if (compared != LIMNI_EXIT_OK) return compared;
-
-    printf("%s: %llu vertices of %u faces; difference from OpenSubdiv's limit, relative to the "
-           "diagonal %g: largest %.3g (face %u), mean %.3g\n",
-           mesh.name, (unsigned long long)comparison.vertex_count, mesh.patch_count,
-           comparison.diagonal, comparison.largest, comparison.largest_face, comparison.mean);
-    if (comparison.normal_count)
-        printf("%s: angle between normals in radians: largest %.3g (face %u), mean %.3g; "
-               "%llu of %llu at degenerate points left out\n",
-               mesh.name, comparison.largest_angle, comparison.largest_angle_face,
-               comparison.mean_angle, (unsigned long long)comparison.degenerate_count,
-               (unsigned long long)(comparison.normal_count + comparison.degenerate_count));
-    fflush(stdout);
-    const int channels = verify_channels(given, pack, &mesh);
-    if (channels != LIMNI_EXIT_OK) return channels;
     const double allowed =
         given->tolerance >= 0 ? (double)given->tolerance : default_tolerance + comparison.rounding;
+    print_comparison(mesh.name, &comparison, mesh.patch_count, allowed);
+    const int channels = verify_channels(given, pack, &mesh);
+    if (channels != LIMNI_EXIT_OK) return channels;
     if (!(comparison.largest <= allowed))
         return limni_failure("the largest difference is above %g", allowed);
     return LIMNI_EXIT_OK;
