@@ -5,10 +5,6 @@
 
 #include <string.h>
 
-/// Half of what a core of a console has as its second cache. Larger tables compete with the points
-/// and vertices of a frame; smaller ones stay there, and patches with one table are quicker.
-#define TABLES_MAX ((uint64_t)256 << 10)
-
 /// What the file would take.
 static limn_bake_status measure(limni_context *context, const limni_classes *classes,
                                 const limni_classes *pieces, const limni_patches *patches,
@@ -63,7 +59,7 @@ limn_bake_status limni_choose_isolation(limni_context *context, const limni_base
         if (!too_large) memcpy(context->error, scratch.error, sizeof context->error);
         limni_release_all(&scratch);
         if (!too_large) LIMNI_TRY(status);
-        isolated = status == LIMN_BAKE_OK && footprints[0].tables > TABLES_MAX &&
+        isolated = status == LIMN_BAKE_OK && footprints[0].tables > LIMNI_TABLES_MAX &&
                    footprints[1].tables < footprints[0].tables;
     }
     *isolate = isolated ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER;

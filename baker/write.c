@@ -317,9 +317,11 @@ static void describe_isolation(const limni_rules *rules, const limni_patches *me
         totals[1] += meshes[m].footprints[1].total;
     }
     const char *const isolated = count == 0 ? "0" : count == mesh_count ? "1" : "mixed";
-    if (rules->isolate == LIMN_ISOLATE_AUTO) {
+    if (rules->isolate == LIMN_ISOLATE_AUTO && totals[0]) {
         snprintf(text, size, " isolate=%s bytes=%llu isolated-bytes=%llu", isolated,
                  (unsigned long long)totals[0], (unsigned long long)totals[1]);
+    } else if (rules->isolate == LIMN_ISOLATE_AUTO) { // the butterfly, for which nothing is chosen
+        snprintf(text, size, " isolate=0");
     } else {
         snprintf(text, size, "%s", count ? " isolate=1" : "");
     }

@@ -546,8 +546,8 @@ works bake -q "$sail" -o isolated.limn --isolate 1
 works info isolated.limn
 says stdout '^baked with .* isolate=1$'
 says stdout 'which are made of [0-9]* pieces'
-notes 'sail: isolated: its tables would take [0-9]* bytes, or [0-9]* isolated' bake "$sail" "$torus" -o chosen.limn --isolate auto
-notes 'torus32: not isolated: ' bake "$sail" "$torus" -o chosen.limn --isolate auto
+notes 'sail: isolated: its tables would take [0-9]* bytes, which is above 256 KB, or [0-9]* isolated; ' bake "$sail" "$torus" -o chosen.limn --isolate auto
+says stderr 'torus32: not isolated: its tables would take [0-9]* bytes, which is below 256 KB, or [0-9]* isolated; '
 works info chosen.limn
 says stdout 'isolate=mixed bytes=[0-9]* isolated-bytes=[0-9]*$'
 notes 'sail: isolated: ' bake "$sail" -o alone.limn --isolate auto
@@ -558,6 +558,9 @@ says stdout " isolated-bytes=$bytes\""
 notes 'torus32: not isolated: ' bake "$torus" -o alone.limn --isolate auto
 works info --json alone.limn
 expect "points of a mesh that is not isolated" "$(json points)" 16
+notes 'torus32: not isolated: with the butterfly' bake "$torus" -o alone.limn --isolate auto --scheme butterfly
+works info alone.limn
+says stdout ' normals=none isolate=0$'
 # Tables of tens of kilobytes for any mesh without creases, and few more for several.
 tables_below() {
     limit=$1

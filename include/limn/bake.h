@@ -78,7 +78,8 @@ typedef enum limn_normals {
 typedef enum limn_isolate {
     LIMN_ISOLATE_NEVER,  ///< a table for every kind of surroundings: the fewest steps for a patch
     LIMN_ISOLATE_ALWAYS, ///< small tables
-    LIMN_ISOLATE_AUTO    ///< for each mesh whose tables would take more than 256 KB; says why
+    LIMN_ISOLATE_AUTO    ///< for each mesh whose tables would take more than 256 KB, never with the
+                         ///< butterfly; says why
 } limn_isolate;
 
 /// Where a channel is interpolated linearly, as OpenSubdiv has it for face-varying data. A corner is a
