@@ -31,7 +31,8 @@ static const char help[] =
     "                 without limn_mesh_refine() and with it\n\n"
     "The kernels are the best of this CPU, of both families. limn-bench kernels --help says what\n"
     "warm and cold mean, and where vertices go.\n\n"
-    "  --scheme S     loop: of triangles (default); catmark: Catmull-Clark, tori of quads\n"
+    "  --scheme S     loop: of triangles (default); catmark: Catmull-Clark, tori of quads; no other,\n"
+    "                 as the butterfly's patches are others when it is isolated\n"
     "  --rounds N     samples of each figure (default 9)\n"
     "  --quick        3 rounds of short samples\n"
     "  --csv FILE     writes all figures\n";
