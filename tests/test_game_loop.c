@@ -79,7 +79,7 @@ static view_moment make_moment(const view_scene *scene, const limn_clip *clip, i
         .view = limn_view_perspective(eye, middle, (const float[]){0, 1, 0}, 0.7f, 1280, 720,
                                       size / 1000, size * 10),
         .lod = {.lod = LIMN_LOD_LENGTH, .pixels = 4},
-        .frame = {.level_colours = true},
+        .frame = {.colours = VIEW_COLOURS_LEVELS},
     };
 }
 
