@@ -34,6 +34,23 @@ static limn_bake_status refuse(const reading *r, const char *format, ...) {
         limni_gltf_name(label, "accessor", r->index, r->accessor->name), r->what, text);
 }
 
+/// The bytes of a buffer view.
+static limn_bake_status find_view(const reading *r, int index, const limni_gltf_view **view,
+                                  const unsigned char **bytes) {
+    const limni_gltf *const document = r->reader->document;
+    if (index < 0 || (uint32_t)index >= document->view_count)
+        return refuse(r, "there is no buffer view %d", index);
+    *view = &document->views[index];
+    if ((*view)->buffer < 0 || (uint32_t)(*view)->buffer >= document->buffer_count)
+        return refuse(r, "buffer view %d: there is no buffer %d", index, (*view)->buffer);
+    const limni_gltf_buffer *const buffer = &document->buffers[(*view)->buffer];
+    if ((*view)->offset > buffer->size || (*view)->size > buffer->size - (*view)->offset)
+        return refuse(r, "buffer view %d reaches beyond buffer %d, which has %" PRIu64 " bytes",
+                      index, (*view)->buffer, buffer->size);
+    *bytes = buffer->bytes + (*view)->offset;
+    return LIMN_BAKE_OK;
+}
+
 limn_bake_status limni_gltf_find_accessor(const limni_gltf_reader *reader, int index,
                                           const char *what, const limni_gltf_accessor **accessor) {
     const limni_gltf *const document = reader->document;
@@ -42,8 +59,10 @@ limn_bake_status limni_gltf_find_accessor(const limni_gltf_reader *reader, int i
                           document->path, what, index);
     const limni_gltf_accessor *const found = *accessor = &document->accessors[index];
     const reading r = {reader, found, (uint32_t)index, what};
-    const bool has_view = found->view >= 0 && (uint32_t)found->view < document->view_count;
-    if (found->count > (has_view ? document->views[found->view].size : ZEROS_MAX))
+    const limni_gltf_view *view = NULL;
+    const unsigned char *bytes;
+    if (found->view >= 0) LIMNI_TRY(find_view(&r, found->view, &view, &bytes));
+    if (found->count > (view ? view->size : ZEROS_MAX))
         return refuse(&r, "%" PRIu64 " elements are more than it has bytes", found->count);
     return LIMN_BAKE_OK;
 }
@@ -72,28 +91,20 @@ typedef struct span {
 
 static limn_bake_status find_span(const reading *r, int view_index, uint64_t offset, uint64_t count,
                                   uint32_t element_size, span *found) {
-    const limni_gltf *const document = r->reader->document;
-    if (view_index < 0 || (uint32_t)view_index >= document->view_count)
-        return refuse(r, "there is no buffer view %d", view_index);
-    const limni_gltf_view *const view = &document->views[view_index];
-    if (view->buffer < 0 || (uint32_t)view->buffer >= document->buffer_count)
-        return refuse(r, "buffer view %d: there is no buffer %d", view_index, view->buffer);
-    const limni_gltf_buffer *const buffer = &document->buffers[view->buffer];
-    if (view->offset > buffer->size || view->size > buffer->size - view->offset)
-        return refuse(r, "buffer view %d reaches beyond buffer %d, which has %" PRIu64 " bytes",
-                      view_index, view->buffer, buffer->size);
-    const uint32_t stride = view->stride ? view->stride : element_size;
-    if (stride < element_size)
+    const limni_gltf_view *view = NULL;
+    LIMNI_TRY(find_view(r, view_index, &view, &found->bytes));
+    found->stride = view->stride ? view->stride : element_size;
+    if (found->stride < element_size)
         return refuse(r, "buffer view %d has a stride of %u bytes, but an element has %u",
-                      view_index, stride, element_size);
-    *found = (span){buffer->bytes + view->offset + offset, stride};
+                      view_index, found->stride, element_size);
     if (count == 0) return LIMN_BAKE_OK;
     if (offset > view->size || element_size > view->size - offset ||
-        count - 1 > (view->size - offset - element_size) / stride)
+        count - 1 > (view->size - offset - element_size) / found->stride)
         return refuse(r,
                       "%" PRIu64 " elements from byte %" PRIu64
                       " on reach beyond buffer view %d, which has %" PRIu64 " bytes",
                       count, offset, view_index, view->size);
+    found->bytes += offset;
     return LIMN_BAKE_OK;
 }
 

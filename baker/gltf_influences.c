@@ -49,12 +49,14 @@ static limn_bake_status add_set(influences *in, const limni_gltf_part *part, con
                                 const float *weights) {
     for (uint32_t i = 0; i < SET_SIZE * part->count; i++) {
         const uint32_t vertex = i / SET_SIZE;
-        char text[96];
         if (weights[i] == 0) continue;
         if (weights[i] < 0) return refuse(in, part, vertex, "has a negative weight");
-        snprintf(text, sizeof text, "names joint %u, but its skin has %u", joints[i],
-                 in->skin->joint_count);
-        if (joints[i] >= in->skin->joint_count) return refuse(in, part, vertex, text);
+        if (joints[i] >= in->skin->joint_count) {
+            char text[96];
+            snprintf(text, sizeof text, "names joint %u, but its skin has %u", joints[i],
+                     in->skin->joint_count);
+            return refuse(in, part, vertex, text);
+        }
         add(in, part->first + vertex, (uint16_t)in->skin_joints[joints[i]], weights[i]);
     }
     return LIMN_BAKE_OK;

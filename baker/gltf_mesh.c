@@ -39,13 +39,15 @@ static limn_bake_status list_parts(limni_gltf_vertices *v) {
         limni_gltf_part *const part = &v->parts[v->part_count];
         const int positions = limni_gltf_attribute_of(&primitive->attributes, "POSITION");
         const limni_gltf_accessor *accessor;
+        char what[192];
         snprintf(part->label, sizeof part->label, "%s, primitive %u", v->label, p);
+        snprintf(what, sizeof what, "POSITION of %s", part->label);
         if (primitive->mode < TRIANGLES || primitive->mode > FAN || positions < 0) {
             limni_note(reader->context, "%s: %s: it has no %s; it is passed over", path,
                        part->label, positions < 0 ? "positions" : "triangles");
             continue;
         }
-        LIMNI_TRY(limni_gltf_find_accessor(reader, positions, part->label, &accessor));
+        LIMNI_TRY(limni_gltf_find_accessor(reader, positions, what, &accessor));
         if (accessor->count == 0) {
             limni_note(reader->context, "%s: %s: it has no vertices; it is passed over", path,
                        part->label);
