@@ -7,11 +7,12 @@
  */
 #include "check.h"
 #include "limn/bake.h"
+#include "shared_edges.h"
 #include "skin_reference.h"
 
 #include <stdlib.h>
 
-enum { JOINTS = 9, FLOATS = 6 };
+enum { JOINTS = 9 };
 
 typedef struct subject {
     limn_baker *baker;
@@ -167,83 +168,34 @@ static void check_points(subject *s, bool dual) {
 
 // ---- Watertight
 
-/// An edge of a patch, from its lower control point to the higher one.
-typedef struct side {
-    uint32_t ends[2];
-    uint32_t patch;
-    uint8_t edge;
-    bool reversed;
-} side;
-
-static int compare_sides(const void *a, const void *b) {
-    return memcmp(a, b, sizeof(uint32_t[2])); // any order that brings equal ones together
-}
-
-static side side_of(const limn_mesh *mesh, uint32_t patch, uint32_t edge) {
-    uint32_t corners[LIMN_CORNER_MAX];
-    limn_mesh_corners(mesh, patch, corners);
-    const uint32_t a = corners[edge], b = corners[(edge + 1) % mesh->domain->corner_count];
-    return (side){{a < b ? a : b, a < b ? b : a}, patch, (uint8_t)edge, a > b};
-}
-
-static const float *vertex_at(const limn_mesh *mesh, const float *vertices, const side *at,
-                              uint32_t t) {
-    const uint32_t along = at->reversed ? LIMN_GRID_SIZE - t : t;
-    const size_t row = mesh->domain->edge_rows[at->edge][along];
-    return vertices + FLOATS * ((size_t)at->patch * mesh->domain->row_counts[LIMN_LEVEL_MAX] + row);
-}
-
-/// Compares positions and normals along all edges that two patches share. Returns how many do.
-static uint32_t check_edges(const limn_mesh *mesh, const float *vertices) {
-    const uint32_t corner_count = mesh->domain->corner_count;
-    const uint32_t count = mesh->patch_count * corner_count;
-    side *const sides = allocate(count, sizeof *sides);
-    uint32_t pairs = 0, differences = 0;
-    for (uint32_t k = 0; k < count; k++)
-        sides[k] = side_of(mesh, k / corner_count, k % corner_count);
-    qsort(sides, count, sizeof *sides, compare_sides);
-    for (uint32_t k = 0; k + 1 < count; k++) {
-        if (compare_sides(&sides[k], &sides[k + 1]) != 0) continue;
-        pairs++;
-        for (uint32_t t = 0; t <= LIMN_GRID_SIZE; t++)
-            differences +=
-                memcmp(vertex_at(mesh, vertices, &sides[k], t),
-                       vertex_at(mesh, vertices, &sides[k + 1], t), FLOATS * sizeof(float)) != 0;
-    }
-    CHECK_EQUAL(differences, 0u);
-    free(sides);
-    return pairs;
-}
-
 /// One frame, as a game would make it, with given kernels.
-static float *make_frame(subject *s, bool dual, const limn_kernels *kernels) {
+static vertex *make_frame(subject *s, bool dual, const limn_kernels *kernels) {
     const limn_pose pose = pose_of(s, dual);
     s->mesh.kernels = s->skin.kernels = kernels;
     limn_pose_points(&pose, s->mesh.controls, 0, s->skin.point_count, s->controls);
     limn_mesh_refine(&s->mesh, s->controls);
     limn_mesh_control_normals(&s->mesh, s->controls, s->control_normals);
     const limn_plan plan = limn_plan_uniform(&s->mesh, LIMN_LEVEL_MAX);
-    float *const vertices = allocate((size_t)plan.vertex_count, FLOATS * sizeof(float));
+    vertex *const vertices = allocate((size_t)plan.vertex_count, sizeof *vertices);
     limn_evaluate(&plan, s->controls, 0, plan.patch_count,
                   &(limn_output){.vertices = vertices,
-                                 .stride = FLOATS * sizeof(float),
-                                 .normals = vertices + 3,
-                                 .normal_stride = FLOATS * sizeof(float),
+                                 .stride = sizeof *vertices,
+                                 .normals = vertices->normal,
+                                 .normal_stride = sizeof *vertices,
                                  .control_normals = s->control_normals});
     return vertices;
 }
 
 static void check_frames(subject *s, bool dual) {
-    const size_t size = (size_t)s->mesh.patch_count * s->mesh.domain->row_counts[LIMN_LEVEL_MAX] *
-                        FLOATS * sizeof(float);
-    float *const expected =
+    const limn_plan plan = limn_plan_uniform(&s->mesh, LIMN_LEVEL_MAX);
+    vertex *const expected =
         make_frame(s, dual, limn_kernels_select(LIMN_ISA_SCALAR, LIMN_FAMILY_REPRODUCIBLE));
-    CHECK(check_edges(&s->mesh, expected) > s->mesh.patch_count);
-    float *const same =
+    CHECK(check_shared_edges(&plan, expected) > s->mesh.patch_count);
+    vertex *const same =
         make_frame(s, dual, limn_kernels_select(LIMN_ISA_ALL, LIMN_FAMILY_REPRODUCIBLE));
-    CHECK(memcmp(expected, same, size) == 0);
-    float *const fast = make_frame(s, dual, limn_kernels_select(LIMN_ISA_ALL, LIMN_FAMILY_FAST));
-    check_edges(&s->mesh, fast);
+    CHECK(memcmp(expected, same, (size_t)plan.vertex_count * sizeof *same) == 0);
+    vertex *const fast = make_frame(s, dual, limn_kernels_select(LIMN_ISA_ALL, LIMN_FAMILY_FAST));
+    check_shared_edges(&plan, fast);
     free(expected);
     free(same);
     free(fast);

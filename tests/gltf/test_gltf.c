@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * glTF from a file to control points in a moment of a clip, beside the reference: a scene that is
- * made here, and the models of LIMN_TEST_ASSETS.
+ * glTF from a file to control points in a moment of a clip, beside the reference, and to vertices
+ * that are watertight by bits: a scene that is made here, and the models of LIMN_TEST_ASSETS.
  */
 #include "check.h"
 #include "gltf_reference.h"
 #include "limn/bake.h"
 #include "limn/character.h"
+#include "shared_edges.h"
 #include "tube.h"
 
 #include <stdlib.h>
@@ -64,8 +65,11 @@ static bool open_scene(scene *s, const char *path, bool images) {
     const bool parsed =
         limni_gltf_parse(&s->context, path, bytes, size, &s->document) == LIMN_BAKE_OK;
     free(bytes);
-    s->baker = limn_baker_create(&(limn_bake_desc){
-        .isolate = LIMN_ISOLATE_ALWAYS, .note = keep_note, .user = s, .images = images});
+    s->baker = limn_baker_create(&(limn_bake_desc){.isolate = LIMN_ISOLATE_ALWAYS,
+                                                   .normals = LIMN_NORMALS_EXACT,
+                                                   .note = keep_note,
+                                                   .user = s,
+                                                   .images = images});
     if (!CHECK(parsed) || !CHECK_EQUAL(limn_baker_add_file(s->baker, path), LIMN_BAKE_OK) ||
         !CHECK_EQUAL(limn_baker_finish(s->baker, &blob, &size), LIMN_BAKE_OK)) {
         fprintf(stderr, "    %s\n", limn_baker_error(s->baker));
@@ -188,6 +192,42 @@ static double test_clips(const scene *s, const double *moments, size_t count) {
         }
     }
     return largest;
+}
+
+// ---- Watertight
+
+/// Evaluates and compares one frame of a mesh. Returns how many edges are shared.
+static uint32_t check_frame(const limn_mesh *mesh, float *controls) {
+    const limn_plan plan = limn_plan_uniform(mesh, 2);
+    float *const normals = malloc((size_t)mesh->normal_count * sizeof(float[3]));
+    vertex *const vertices = malloc((size_t)plan.vertex_count * sizeof *vertices);
+    limn_mesh_refine(mesh, controls);
+    limn_mesh_control_normals(mesh, controls, normals);
+    limn_evaluate(&plan, controls, 0, plan.patch_count,
+                  &(limn_output){.vertices = vertices,
+                                 .stride = sizeof *vertices,
+                                 .normals = vertices->normal,
+                                 .normal_stride = sizeof *vertices,
+                                 .control_normals = normals});
+    const uint32_t shared = check_shared_edges(&plan, vertices);
+    free(normals);
+    free(vertices);
+    return shared;
+}
+
+/// Frames of every clip, of all meshes.
+static void test_watertight(const scene *s) {
+    enum { FRAMES = 8 };
+    for (uint32_t m = 0; m < s->pack.mesh_count; m++) {
+        const limn_mesh mesh = limn_pack_mesh(&s->pack, m);
+        for (uint32_t frame = 0; frame < FRAMES * limn_pack_clip_count(&s->pack); frame++) {
+            const limn_clip clip = limn_pack_clip(&s->pack, frame / FRAMES);
+            const float time = clip.duration * (float)(frame % FRAMES) / (FRAMES - 1);
+            float *const controls = pose(s, m, &clip, time, LIMN_WRAP_CLAMP);
+            CHECK(check_frame(&mesh, controls) > mesh.patch_count);
+            free(controls);
+        }
+    }
 }
 
 // ---- The scene that is made here
@@ -343,9 +383,11 @@ static void test_models(void) {
         FILE *const file = fopen(path, "rb");
         if (!file) continue;
         fclose(file);
-        if (open_scene(&s, path, false))
+        if (open_scene(&s, path, false)) {
             printf("%s: control points within %.2g\n", files[f],
                    test_clips(&s, (const double[]){0.31, 0.77}, 2));
+            test_watertight(&s);
+        }
         close_scene(&s);
     }
 }
