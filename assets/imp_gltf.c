@@ -296,15 +296,30 @@ static void print_bytes(const character *c, FILE *out) {
     fputs("\"}]\n", out);
 }
 
-static void print_bounds(const mesh *m, FILE *out) {
-    point low = m->points[0], high = low;
-    for (int i = 1; i < m->point_count; ++i) {
-        const point p = m->points[i];
-        low = (point){fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z)};
-        high = (point){fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z)};
+static float float_at(const character *c, size_t at) {
+    uint32_t bits = 0;
+    float value;
+    for (int i = 0; i < 4; ++i) {
+        bits |= (uint32_t)c->bytes[at + (size_t)i] << 8 * i;
     }
-    fprintf(out, ", \"min\": [%.4f, %.4f, %.4f], \"max\": [%.4f, %.4f, %.4f]", low.x, low.y, low.z,
-            high.x, high.y, high.z);
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* The smallest and the largest of each component of the floats in [begin, end): exactly. */
+static void print_bounds(const character *c, size_t begin, size_t end, size_t width, FILE *out) {
+    for (int largest = 0; largest < 2; ++largest) {
+        fprintf(out, ", \"%s\": [", largest ? "max" : "min");
+        for (size_t component = 0; component < width; ++component) {
+            float bound = float_at(c, begin + 4 * component);
+            for (size_t at = begin + 4 * component; at < end; at += 4 * width) {
+                const float value = float_at(c, at);
+                if (largest ? value > bound : value < bound) bound = value;
+            }
+            fprintf(out, "%s%.9g", component ? ", " : "", bound);
+        }
+        fputs("]", out);
+    }
 }
 
 static void print_accessors(const character *c, const size_t starts[accessor_count + 1],
@@ -329,10 +344,8 @@ static void print_accessors(const character *c, const size_t starts[accessor_cou
         fprintf(out,
                 "    {\"bufferView\": %d, \"componentType\": %d, \"count\": %d, \"type\": \"%s\"",
                 a, kinds[kind].component, count, kinds[kind].type);
-        if (kind == of_positions) print_bounds(c->m, out);
-        if (kind == of_deltas) fputs(", \"min\": [-0.05, 0, 0], \"max\": [0.05, 0, 0.1]", out);
-        if (kind == of_times)
-            fprintf(out, ", \"min\": [0], \"max\": [%g]", key_step * (key_count - 1));
+        if (kind == of_positions || kind == of_deltas || kind == of_times)
+            print_bounds(c, starts[a], starts[a + 1], kind == of_times ? 1 : 3, out);
         fprintf(out, "}%s\n", a + 1 < accessor_count ? "," : "");
     }
     fputs("  ],\n  \"bufferViews\": [\n", out);
@@ -351,13 +364,13 @@ static void print_nodes(FILE *out) {
         const point place = subtract(joint_place(b), from);
         fprintf(out, "    {\"name\": \"%s\", \"translation\": [%.6f, %.6f, %.6f]", bones[b].name,
                 place.x, place.y, place.z);
-        const char *before = ", \"children\": [";
+        bool any = false;
         for (int child = 0; child < bone_count; ++child) {
             if (bones[child].parent != b) continue;
-            fprintf(out, "%s%d", before, child);
-            before = ", ";
+            fprintf(out, "%s%d", any ? ", " : ", \"children\": [", child);
+            any = true;
         }
-        fputs(before[2] == '\0' ? "]},\n" : "},\n", out);
+        fputs(any ? "]},\n" : "},\n", out);
     }
     fputs("    {\"name\": \"imp\", \"mesh\": 0, \"skin\": 0}\n  ],\n", out);
 }
