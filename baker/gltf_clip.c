@@ -68,17 +68,13 @@ static limn_bake_status find_target(const recording *r, uint32_t index, limn_fil
 
 // ---- Order
 
-static uint64_t key_of(const limn_file_track *track) {
-    const bool of_mesh = track->path == LIMN_FORMAT_TARGET_WEIGHTS;
-    return (uint64_t)of_mesh << 34 | (uint64_t)track->target << 2 | track->path;
-}
-
 /// Inserts a track where it belongs; false if there is one like it.
 static bool insert(recording *r, const limn_file_track *track, uint32_t channel) {
+    const uint64_t key = limn_file_track_key(track);
     uint32_t at = r->clip.track_count;
-    while (at > 0 && key_of(&r->tracks[at - 1]) >= key_of(track))
+    while (at > 0 && limn_file_track_key(&r->tracks[at - 1]) >= key)
         at--;
-    if (at < r->clip.track_count && key_of(&r->tracks[at]) == key_of(track)) return false;
+    if (at < r->clip.track_count && limn_file_track_key(&r->tracks[at]) == key) return false;
     const size_t moved = r->clip.track_count - at;
     memmove(r->tracks + at + 1, r->tracks + at, moved * sizeof *r->tracks);
     memmove(r->channels + at + 1, r->channels + at, moved * sizeof *r->channels);

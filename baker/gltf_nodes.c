@@ -17,37 +17,12 @@ const char *limni_gltf_name(limni_gltf_label text, const char *what, uint32_t in
 
 // ---- Transforms
 
-limni_transform limni_transform_multiply(const limni_transform *a, const limni_transform *b) {
-    limni_transform t;
-    for (int row = 0; row < 3; row++) {
-        for (int column = 0; column < 4; column++)
-            t.rows[row][column] =
-                a->rows[row][0] * b->rows[0][column] + a->rows[row][1] * b->rows[1][column] +
-                a->rows[row][2] * b->rows[2][column] + (column == 3 ? a->rows[row][3] : 0);
-    }
-    return t;
-}
-
 limni_transform limni_gltf_local(const limni_gltf_node *node) {
+    if (!node->has_matrix)
+        return limni_transform_make(node->translation, node->rotation, node->scale);
     limni_transform t;
-    if (node->has_matrix) {
-        for (int i = 0; i < 12; i++)
-            t.rows[i % 3][i / 3] = node->matrix[4 * (i / 3) + i % 3];
-        return t;
-    }
-    const double *const q = node->rotation;
-    const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    const double s = length > 0 ? 1 / length : 0;
-    const double x = q[0] * s, y = q[1] * s, z = q[2] * s, w = length > 0 ? q[3] * s : 1;
-    const double turned[3][3] = {
-        {1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
-        {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
-        {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
-    for (int row = 0; row < 3; row++) {
-        for (int column = 0; column < 3; column++)
-            t.rows[row][column] = turned[row][column] * node->scale[column];
-        t.rows[row][3] = node->translation[row];
-    }
+    for (int i = 0; i < 12; i++)
+        t.rows[i % 3][i / 3] = node->matrix[4 * (i / 3) + i % 3];
     return t;
 }
 
@@ -105,9 +80,7 @@ static void to_quaternion(const double m[3][3], double q[4]) {
         q[k] = m[k][i] + m[i][k];
         q[3] = m[k][j] - m[j][k];
     }
-    const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    for (int i = 0; i < 4; i++)
-        q[i] /= length;
+    limni_quaternion_normalise(q);
 }
 
 bool limni_transform_decompose(const limni_transform *t, double translation[3], double rotation[4],

@@ -7,13 +7,9 @@
 #ifndef LIMNI_GLTF_READER_H
 #define LIMNI_GLTF_READER_H
 
+#include "../runtime/transform.h"
 #include "gltf.h"
 #include "scene.h"
-
-/// x' = rows[0][0] x + rows[0][1] y + rows[0][2] z + rows[0][3].
-typedef struct limni_transform {
-    double rows[3][4];
-} limni_transform;
 
 /// What a node is among the others.
 typedef struct limni_gltf_place {
@@ -55,7 +51,6 @@ limn_bake_status limni_gltf_find_material(limni_gltf_reader *reader, int index, 
 
 // ---- Transforms
 
-limni_transform limni_transform_multiply(const limni_transform *a, const limni_transform *b);
 /// Where a node is, relative to its parent.
 limni_transform limni_gltf_local(const limni_gltf_node *node);
 double limni_transform_determinant(const limni_transform *t);

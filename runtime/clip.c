@@ -8,6 +8,7 @@
 
 #include "chunks.h"
 #include "require.h"
+#include "transform.h"
 
 #include <math.h>
 
@@ -76,12 +77,6 @@ static double value_at(const limn_file_track *track, const sample *s, uint32_t i
 
 // ---- Rotations
 
-static void normalise(double q[4]) {
-    const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    for (int i = 0; i < 4; i++)
-        q[i] = length > 0 ? q[i] / length : i == 3;
-}
-
 /// On the sphere, the shorter way.
 static void turn(const sample *s, double q[4]) {
     double from[4], to[4], cosine = 0;
@@ -89,8 +84,8 @@ static void turn(const sample *s, double q[4]) {
         from[i] = (double)s->from[i];
         to[i] = (double)s->to[i];
     }
-    normalise(from);
-    normalise(to);
+    limni_quaternion_normalise(from);
+    limni_quaternion_normalise(to);
     for (int i = 0; i < 4; i++)
         cosine += from[i] * to[i];
     const double sign = cosine < 0 ? -1 : 1, angle = acos(fmin(fabs(cosine), 1));
@@ -129,60 +124,33 @@ static void move(const limn_clip *clip, const limn_file_track *track, double mom
         values[i] = value_at(track, &s, i);
 }
 
-typedef struct matrix {
-    double rows[3][4];
-} matrix;
-
-static matrix matrix_of(const placement *p) {
-    double q[4];
-    memcpy(q, p->values[LIMN_FORMAT_ROTATION], sizeof q);
-    normalise(q);
-    const double x = q[0], y = q[1], z = q[2], w = q[3];
-    const double turned[3][3] = {
-        {1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
-        {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
-        {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
-    matrix m;
-    for (int row = 0; row < 3; row++) {
-        for (int column = 0; column < 3; column++)
-            m.rows[row][column] = turned[row][column] * p->values[LIMN_FORMAT_SCALE][column];
-        m.rows[row][3] = p->values[LIMN_FORMAT_TRANSLATION][row];
-    }
-    return m;
-}
-
-static matrix multiply(const matrix *a, const matrix *b) {
-    matrix m;
-    for (int row = 0; row < 3; row++) {
-        for (int column = 0; column < 4; column++)
-            m.rows[row][column] =
-                a->rows[row][0] * b->rows[0][column] + a->rows[row][1] * b->rows[1][column] +
-                a->rows[row][2] * b->rows[2][column] + (column == 3 ? a->rows[row][3] : 0);
-    }
-    return m;
+static limni_transform transform_of(const placement *p) {
+    return limni_transform_make(p->values[LIMN_FORMAT_TRANSLATION], p->values[LIMN_FORMAT_ROTATION],
+                                p->values[LIMN_FORMAT_SCALE]);
 }
 
 /// Rounds where a joint is, times its inverse bind matrix.
-static void store(const matrix *place, const limn_file_joint *joint, float *out) {
-    matrix bind;
+static void store(const limni_transform *place, const limn_file_joint *joint, float *out) {
+    limni_transform bind;
     for (int i = 0; i < 12; i++)
         bind.rows[i / 4][i % 4] = (double)joint->inverse_bind[i / 4][i % 4];
-    const matrix m = multiply(place, &bind);
+    const limni_transform m = limni_transform_multiply(place, &bind);
     for (int i = 0; i < 12; i++)
         out[i] = (float)m.rows[i / 4][i % 4];
 }
 
 /// The joints from a root to the one at hand.
 typedef struct way {
-    matrix places[LIMN_FORMAT_DEPTH_OF_JOINTS];
+    limni_transform places[LIMN_FORMAT_DEPTH_OF_JOINTS];
     uint32_t joints[LIMN_FORMAT_DEPTH_OF_JOINTS];
     uint32_t depth;
 } way;
 
-static void step(way *w, uint32_t joint, uint32_t parent, const matrix *local) {
+static void step(way *w, uint32_t joint, uint32_t parent, const limni_transform *local) {
     while (w->depth > 0 && w->joints[w->depth - 1] != parent)
         w->depth--;
-    w->places[w->depth] = w->depth ? multiply(&w->places[w->depth - 1], local) : *local;
+    w->places[w->depth] =
+        w->depth ? limni_transform_multiply(&w->places[w->depth - 1], local) : *local;
     w->joints[w->depth++] = joint;
 }
 
@@ -200,7 +168,7 @@ void limn_clip_pose(const limn_skeleton *skeleton, const limn_clip *clip, float 
         for (; track < end && track->path != LIMN_FORMAT_TARGET_WEIGHTS && track->target == j;
              track++)
             move(clip, track, moment, &p);
-        const matrix local = matrix_of(&p);
+        const limni_transform local = transform_of(&p);
         step(&w, j, joint->parent, &local);
         store(&w.places[w.depth - 1], joint, matrices + 12 * (size_t)j);
     }

@@ -86,12 +86,6 @@ static uint32_t width_of(const limn_pack *pack, const limn_file_track *track) {
     return limn_mesh_morph_targets(pack, track->target).target_count;
 }
 
-/// In this order tracks of a clip ascend: those of joints first.
-static uint64_t track_key(const limn_file_track *track) {
-    const bool of_mesh = track->path == LIMN_FORMAT_TARGET_WEIGHTS;
-    return (uint64_t)of_mesh << 34 | (uint64_t)track->target << 2 | track->path;
-}
-
 static bool do_ascend(const float *times, uint32_t count) {
     bool ascend = true;
     for (uint32_t k = 1; k < count; k++)
@@ -138,7 +132,8 @@ static limn_result validate_clips(const limn_pack *pack) {
             clip->duration < 0)
             return LIMN_ERROR_CLIP;
         for (const uint32_t begin = track; track < begin + clip->track_count; track++) {
-            if (track > begin && track_key(&tracks[track]) <= track_key(&tracks[track - 1]))
+            if (track > begin &&
+                limn_file_track_key(&tracks[track]) <= limn_file_track_key(&tracks[track - 1]))
                 return LIMN_ERROR_CLIP;
             TRY(validate_track(pack, &tracks[track], joint_count, keys, key_count, &key));
         }

@@ -11,6 +11,7 @@
 #ifndef LIMN_FORMAT_H
 #define LIMN_FORMAT_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -98,6 +99,7 @@ extern "C" {
 
 /// Of a channel: limn_file_channel.
 #define LIMN_CHUNK_CHANNEL LIMN_FORMAT_KIND('C', 'H', 'N', 'L')
+
 /// Characters: what moves and colours meshes. None of these chunks is required. In the file: texts,
 /// zero-terminated, one behind the other; limn_file_joint[], limn_file_clip[], limn_file_track[],
 /// float[]; limn_file_material[], limn_file_image[], and the bytes of images.
@@ -320,6 +322,12 @@ typedef struct limn_file_track {
     uint32_t key_count;
     uint32_t first_key; ///< into the keys
 } limn_file_track;
+
+/// By this, the tracks of a clip ascend: first those of joints.
+static inline uint64_t limn_file_track_key(const limn_file_track *track) {
+    const bool of_mesh = track->path == LIMN_FORMAT_TARGET_WEIGHTS;
+    return (uint64_t)of_mesh << 34 | (uint64_t)track->target << 2 | track->path;
+}
 
 typedef struct limn_file_material {
     uint32_t name;
