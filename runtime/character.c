@@ -5,6 +5,8 @@
 #include "chunks.h"
 #include "require.h"
 
+LIMN_STATIC_ASSERT(LIMN_NONE == LIMN_FORMAT_NONE, "views pass on what the file says");
+
 /// Records of a chunk of the file, or of a mesh; 0 where there is none.
 static uint32_t record_count(const limn_pack *pack, uint32_t mesh, uint32_t kind, size_t size) {
     const limn_file_chunk *const chunk = find_chunk(pack, mesh, kind);

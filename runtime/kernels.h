@@ -30,7 +30,7 @@
 #endif
 
 /// The largest padded row count of any domain.
-#define LIMNI_ROW_MAX 296
+#define LIMNI_PADDED_ROWS_MAX 296
 
 /// A row with more terms than this is summed with compensation. Both patches that share a row see
 /// the same terms, so they agree on how to sum it.

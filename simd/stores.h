@@ -218,7 +218,7 @@ static inline void store_parts(const parts *p, const float *rows, size_t row_cou
 /// All rows past the caches, by way of L1. There is no such way where the caller has bytes of his
 /// own between the vertices, nor for elements of two bytes.
 static inline void stream_parts(const parts *p, const float *rows, size_t row_count) {
-    _Alignas(64) unsigned char staging[LIMNI_ROW_MAX * VERTEX_MAX];
+    _Alignas(64) unsigned char staging[LIMNI_PADDED_ROWS_MAX * VERTEX_MAX];
     for (int i = 0, end; i < p->count; i = end) {
         const part *const item = &p->items[i];
         end = end_of(p, i);

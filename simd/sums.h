@@ -16,7 +16,7 @@
 /// A vector for every row of one patch: structure of arrays, in L1. Loops over rows go on to the
 /// end of a vector.
 enum {
-    STAGED = LIMNI_ROW_MAX, ///< from here on, rows of edges wait for their places
+    STAGED = LIMNI_PADDED_ROWS_MAX, ///< from here on, rows of edges wait for their places
     PLANE = STAGED + LIMN_CORNER_MAX * LIMNI_EDGE_ROWS + LANES_WIDTH
 };
 typedef struct vectors {

@@ -19,10 +19,10 @@
  *
  * Words: a *control point* is a vertex of the mesh that was baked; a *base vertex* is one whose
  * faces the patches draw: a control point, but where the mesh had to be divided first; a *patch* is
- * what is drawn for one base face; a *row* is one vertex of a patch's grid. "Never fails" means: given valid arguments there
- * is no error to report. A caller's mistake aborts in debug builds of the library, and in others
- * returns without doing anything; whoever compiles it with LIMN_ASSERT(condition) defined decides
- * what happens before.
+ * what is drawn for one base face; a *row* is one vertex of a patch's grid. "Never fails" means:
+ * given valid arguments there is no error to report. A caller's mistake aborts in debug builds of
+ * the library, and in others returns without doing anything; whoever compiles it with
+ * LIMN_ASSERT(condition) defined decides what happens before.
  */
 #ifndef LIMN_H
 #define LIMN_H
@@ -734,12 +734,12 @@ void limn_mesh_refine(const limn_mesh *mesh, float *controls);
 void limn_mesh_control_normals(const limn_mesh *mesh, const float *controls, float *normals);
 
 /// Evaluates patches [begin, end) of a plan and writes their positions, and if asked to, unit
-/// normals of the limit surface and the light on it. Does not allocate, never fails; any number of threads may evaluate
-/// disjoint ranges of one plan into one output. Takes some 64 KB of stack; 200 KB where a patch
-/// depends on more than 256 points. The caller's own bytes between vertices are left
-/// alone. The same input gives the same bits with every reproducible kernel, and shared vertices of
-/// neighbouring patches get the same bits with any. Both hold if all threads round to nearest and
-/// treat denormals alike, and where control points are finite; docs/design.md says more.
+/// normals of the limit surface and the light on it. Does not allocate, never fails; any number of
+/// threads may evaluate disjoint ranges of one plan into one output. Takes some 64 KB of stack; 200
+/// KB where a patch depends on more than 256 points. The caller's own bytes between vertices are
+/// left alone. The same input gives the same bits with every reproducible kernel, and shared
+/// vertices of neighbouring patches get the same bits with any. Both hold if all threads round to
+/// nearest and treat denormals alike, and where control points are finite; docs/design.md says more.
 ///
 /// controls    [mesh->point_count][3] floats, model units, tightly packed; must not overlap the
 ///             output
