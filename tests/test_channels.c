@@ -515,15 +515,7 @@ static blob bake_atlas(const limn_bake_desc *desc) {
 
 static void test_damages(void) {
     const blob file = bake_atlas(&(limn_bake_desc){.scheme = LIMN_SCHEME_CATMARK});
-    for (size_t d = 0; d < COUNT(damages); d++) {
-        const blob damaged = copy_blob(&file, file.size);
-        damages[d].apply(&damaged);
-        fix_checksum(&damaged);
-        const limn_result result = open_result(damaged.bytes, damaged.size);
-        if (!CHECK_EQUAL(result, damages[d].expected))
-            fprintf(stderr, "    %s: %s\n", damages[d].name, limn_result_text(result));
-        free(damaged.bytes);
-    }
+    check_damages(&file, damages, COUNT(damages));
     free(file.bytes);
 }
 

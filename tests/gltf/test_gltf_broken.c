@@ -4,6 +4,7 @@
  * changes the good scene of tube.h in one place.
  */
 #include "../../baker/scene.h"
+#include "chain.h"
 #include "check.h"
 #include "limn/limn.h"
 #include "tube.h"
@@ -319,6 +320,16 @@ static void test_many(void) {
     }
 }
 
+static void test_deep(void) {
+    static glb file;
+    chain_make(&file, LIMN_FORMAT_DEPTH_OF_JOINTS - 1);
+    outcome o = read_changed(&file, "\"nodes\"", "\"nodes\"");
+    CHECK_EQUAL(o.status, LIMN_BAKE_OK);
+    chain_make(&file, LIMN_FORMAT_DEPTH_OF_JOINTS);
+    o = read_changed(&file, "\"nodes\"", "\"nodes\"");
+    expect_refusal(&o, "node 256: more than 254 joints above it");
+}
+
 /// Bytes that end anywhere are refused, or as good as whole.
 static void test_truncated(const glb *file) {
     static char json[1 << 16];
@@ -348,6 +359,7 @@ int main(void) {
     test_numbers(&file);
     test_mended(&file);
     test_many();
+    test_deep();
     test_truncated(&file);
     return check_report();
 }

@@ -4,21 +4,17 @@
  * that open are used.
  */
 #include "blobs.h"
+#include "chain.h"
 #include "characters.h"
 #include "limn/bake.h"
 #include "tube.h"
 
-/// The scene of tube.h with small tables, and an image in it.
-static blob bake_tube(void) {
-    static glb tube;
+static blob bake(const glb *scene) {
     static char json[1 << 16];
     size_t size;
     const void *bytes = NULL;
-    tube_make(&tube);
-    char *const uri = strstr(tube.rest, "\"uri\":\"not_there.png\"");
-    memcpy(uri, "\"bufferView\":0       ", 21); // as long
-    glb_json(&tube, json, sizeof json);
-    unsigned char *const document = glb_make(json, tube.bytes, tube.size, &size);
+    glb_json(scene, json, sizeof json);
+    unsigned char *const document = glb_make(json, scene->bytes, scene->size, &size);
     FILE *const out = fopen("test_pack_character.glb", "wb");
     CHECK(out && fwrite(document, 1, size, out) == size);
     if (out) fclose(out);
@@ -33,6 +29,15 @@ static blob bake_tube(void) {
     const blob file = copy_blob(&original, size);
     limn_baker_destroy(baker);
     return file;
+}
+
+/// The scene of tube.h with small tables, and an image in it.
+static blob bake_tube(void) {
+    static glb tube;
+    tube_make(&tube);
+    char *const uri = strstr(tube.rest, "\"uri\":\"not_there.png\"");
+    memcpy(uri, "\"bufferView\":0       ", 21); // as long
+    return bake(&tube);
 }
 
 // ---- Golden values
@@ -314,6 +319,23 @@ static void test_words(const blob *file) {
     CHECK(refused > 100);
 }
 
+/// The joints on the way to one, as many as there may be, and one more.
+static void test_depth(void) {
+    static glb chain;
+    limn_pack pack;
+    chain_make(&chain, LIMN_FORMAT_DEPTH_OF_JOINTS - 1);
+    const blob file = bake(&chain);
+    limn_file_joint *const joints = joints_of(&file);
+    joints[255].parent = 254;
+    fix_checksum(&file);
+    if (CHECK_EQUAL(limn_pack_open(&pack, file.bytes, file.size), LIMN_OK)) use_character(&pack);
+    CHECK_EQUAL(limn_pack_skeleton(&pack).joint_count, 257);
+    joints[256].parent = 255;
+    fix_checksum(&file);
+    CHECK_EQUAL(open_result(file.bytes, file.size), LIMN_ERROR_SKELETON);
+    free(file.bytes);
+}
+
 int main(void) {
     const blob file = bake_tube();
     limn_pack pack;
@@ -322,6 +344,7 @@ int main(void) {
     test_golden(&file);
     check_damages(&file, damages, COUNT(damages));
     test_words(&file);
+    test_depth();
     free(file.bytes);
     return check_report();
 }
