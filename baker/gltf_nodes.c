@@ -2,6 +2,7 @@
 /* The tree of nodes: order, places at rest, and what moves. */
 #include "gltf_reader.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -200,6 +201,16 @@ static void mark_moving(limni_gltf_reader *reader) {
     }
 }
 
+/// Whether floats hold where a node is, and how it turns.
+static bool is_finite(const limni_gltf_node *node, const limni_transform *local,
+                      const limni_transform *global) {
+    float rounded[3][4];
+    bool finite = limni_transform_round(local, rounded) && limni_transform_round(global, rounded);
+    for (int i = 0; i < 4; i++)
+        finite &= fabs(node->rotation[i]) <= (double)FLT_MAX;
+    return finite;
+}
+
 limn_bake_status limni_gltf_read_nodes(limni_gltf_reader *reader) {
     const limni_gltf *const document = reader->document;
     const uint32_t count = document->node_count;
@@ -215,8 +226,8 @@ limn_bake_status limni_gltf_read_nodes(limni_gltf_reader *reader) {
     mark_moving(reader);
     for (uint32_t o = 0; o < count; o++) {
         limni_gltf_place *const place = &reader->places[reader->order[o]];
-        const limni_transform local = limni_gltf_local(&document->nodes[reader->order[o]]);
-        float rounded[3][4];
+        const limni_gltf_node *const node = &document->nodes[reader->order[o]];
+        const limni_transform local = limni_gltf_local(node);
         place->global = local;
         if (place->parent != LIMN_FORMAT_NONE) {
             const limni_gltf_place *const parent = &reader->places[place->parent];
@@ -224,8 +235,7 @@ limn_bake_status limni_gltf_read_nodes(limni_gltf_reader *reader) {
             place->in_scene |= parent->in_scene;
             place->moves |= parent->moves;
         }
-        if (!limni_transform_round(&place->global, rounded) ||
-            !limni_transform_round(&local, rounded))
+        if (!is_finite(node, &local, &place->global))
             return refuse_node(reader, reader->order[o], "its place is not finite");
     }
     return LIMN_BAKE_OK;

@@ -5,6 +5,8 @@
 #include "limn/limn.h"
 #include "mesh.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -175,7 +177,12 @@ static limn_bake_status describe_targets(const data *d, limni_rig *rig) {
         char numbered[32];
         snprintf(numbered, sizeof numbered, "target %u", t);
         const bool named = t < v->mesh->target_name_count && v->mesh->target_names[t][0];
-        rig->targets[t] = (limn_file_target){.weight = t < weight_count ? (float)weights[t] : 0};
+        const double weight = t < weight_count ? weights[t] : 0;
+        if (!(fabs(weight) <= (double)FLT_MAX))
+            return limni_fail(context, LIMN_BAKE_BAD_INPUT,
+                              "%s: %s: the weight of morph target %u is not finite",
+                              v->reader->document->path, v->label, t);
+        rig->targets[t] = (limn_file_target){.weight = (float)weight};
         LIMNI_TRY(limni_character_add_text(context, v->reader->scene->character,
                                            named ? v->mesh->target_names[t] : numbered,
                                            &rig->targets[t].name));

@@ -155,6 +155,10 @@ static const refusal refusals[] = {
     {"\"nodes\":[0,3,4,5,7]", "\"nodes\":[0,33]", "the scene has node 33"},
     {"\"translation\":[0,1.5,0]", "\"translation\":[0,1e300,0]",
      "node 2 'upper': its place is not finite"},
+    {"\"rotation\":[0,0.6,0,0.8]", "\"rotation\":[0,1e300,0,0.8]",
+     "node 1 'lower': its place is not finite"},
+    {"\"weights\":[0.5]", "\"weights\":[-1e300]",
+     "mesh 0 'tube': the weight of morph target 0 is not finite"},
     // Skins and clips
     {"\"joints\":[1,2],\"inverseBindMatrices\":12", "\"joints\":[1,22],\"inverseBindMatrices\":12",
      "skin 1 'other': its joint 1 is node 22"},
