@@ -191,7 +191,7 @@ static void *find_bytes(glb *file, const void *values, size_t size) {
     for (size_t at = 0; at + size <= file->size; at += 4) {
         if (memcmp(file->bytes + at, values, size) == 0) return file->bytes + at;
     }
-    CHECK(!"there");
+    CHECK(false);
     return file->bytes;
 }
 
