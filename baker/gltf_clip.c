@@ -141,6 +141,28 @@ static limn_bake_status record(recording *r, uint32_t t) {
     return LIMN_BAKE_OK;
 }
 
+static bool has_clip(const limni_character *character, const char *name) {
+    const limn_file_clip *const clips = character->clips.items;
+    for (uint32_t c = 0; c < character->clips.count; c++) {
+        if (strcmp((const char *)character->strings.items + clips[c].name, name) == 0) return true;
+    }
+    return false;
+}
+
+/// A clip is found by its name: of several with one name, which several files may have, later ones
+/// get a number behind it, with a note.
+static limn_bake_status name_clip(limni_gltf_reader *reader, const char *name, uint32_t *offset) {
+    limni_character *const character = reader->scene->character;
+    char numbered[256];
+    snprintf(numbered, sizeof numbered, "%s", name);
+    for (uint32_t number = 2; has_clip(character, numbered); number++)
+        snprintf(numbered, sizeof numbered, "%.240s %u", name, number);
+    if (strncmp(numbered, name, sizeof numbered - 1) != 0)
+        limni_note(reader->context, "%s: there is a clip '%s' already: this one is '%s'",
+                   reader->document->path, name, numbered);
+    return limni_character_add_text(reader->context, character, numbered, offset);
+}
+
 static limn_bake_status read_clip(limni_gltf_reader *reader, uint32_t index) {
     limni_context *const context = reader->context;
     limni_character *const character = reader->scene->character;
@@ -160,8 +182,7 @@ static limn_bake_status read_clip(limni_gltf_reader *reader, uint32_t index) {
     for (uint32_t t = 0; t < r.clip.track_count; t++)
         LIMNI_TRY(record(&r, t));
     r.clip.first_track = character->tracks.count;
-    LIMNI_TRY(limni_character_add_text(
-        context, character, animation->name[0] ? animation->name : r.label, &r.clip.name));
+    LIMNI_TRY(name_clip(reader, animation->name[0] ? animation->name : r.label, &r.clip.name));
     LIMNI_TRY(limni_list_add(context, &character->clips, &r.clip, 1, sizeof r.clip));
     LIMNI_TRY(limni_list_add(context, &character->tracks, r.tracks, r.clip.track_count,
                              sizeof *r.tracks));

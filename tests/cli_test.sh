@@ -558,7 +558,7 @@ says stdout " isolated-bytes=$bytes\""
 notes 'torus32: not isolated: ' bake "$torus" -o alone.limn --isolate auto
 works info --json alone.limn
 expect "points of a mesh that is not isolated" "$(json points)" 16
-notes 'torus32: not isolated: with the butterfly' bake "$torus" -o alone.limn --isolate auto --scheme butterfly
+notes 'torus32.obj: not isolated: with the butterfly' bake "$torus" -o alone.limn --isolate auto --scheme butterfly
 works info alone.limn
 says stdout ' normals=none isolate=0$'
 # Tables of tens of kilobytes for any mesh without creases, and few more for several.
@@ -694,7 +694,9 @@ works export sail.limn --level 2 --weld -o sail.obj
 works bake -q sail.obj -o again.limn
 works export torus.limn --level 0 -o far/out.ply
 
-# A moment of a clip.
+# A moment of a clip. Names of clips are made different.
+notes "there is a clip 'animation 0' already: this one is 'animation 0 2'" bake "$character" "$character" -o two.limn
+works export two.limn --level 1 -o later.obj --clip 'animation 0 2'
 works bake -q "$character" -o character.limn
 works export character.limn --level 1 -o bind.obj
 works export character.limn --level 1 -o start.obj --clip 'animation 0'

@@ -11,6 +11,8 @@
  *     limn_pose pose = {.skin = &skin, .matrices = matrices};
  *     limn_pose_points(&pose, mesh.controls, 0, skin.point_count, controls);
  *
+ * A mesh without a skin, whose point_count is 0, stays where it is: its controls are to be copied.
+ *
  * Everything here is a view of the file and is valid for as long as the blob is. Nothing allocates
  * or keeps state; any thread.
  */
@@ -104,7 +106,8 @@ typedef struct limn_material {
     const char *name;
     float base_colour[4];    ///< linear, with alpha
     const char *image_name;  ///< of the texture: a path or a name; NULL: there is none
-    const void *image_bytes; ///< [image_size] PNG or JPEG as it was; NULL: it is not in the file
+    const void *image_bytes; ///< [image_size] PNG or JPEG as it was, in sRGB, its first row where
+                             ///< v is 0; NULL: it is not in the file
     size_t image_size;
     uint32_t texture_channel; ///< of its texture coordinates, n of TEXCOORD_n in glTF
 } limn_material;
