@@ -23,26 +23,28 @@ static float encode_srgb(float value) {
     return value <= 0.0031308f ? value * 12.92f : 1.055f * powf(value, 1 / 2.4f) - 0.055f;
 }
 
-static bool read_picture(const limn_material *material, picture *read) {
+static void note_image(const limn_material *material, const char *what) {
+    fprintf(stderr, "limn-view: note: the image '%s' of material '%s' is not shown: %s\n",
+            material->image_name, material->name, what);
+}
+
+/// Notes what cannot be read, and leaves it out.
+static picture read_picture(const limn_material *material) {
+    picture read = {0};
     int width = 0, height = 0, channels = 0;
-    *read = (picture){0};
-    if (!material->image_name) return true;
+    if (!material->image_name) return read;
     if (!material->image_bytes) {
-        fprintf(stderr,
-                "limn-view: note: the image '%s' of material '%s' is not in the file; bake it with "
-                "--images\n",
-                material->image_name, material->name);
-        return true;
+        note_image(material, "it is not in the file; bake it with --images");
+    } else if (material->image_size > INT_MAX) {
+        note_image(material, "it is too large");
+    } else {
+        read.pixels = stbi_load_from_memory(material->image_bytes, (int)material->image_size,
+                                            &width, &height, &channels, 4);
+        if (!read.pixels) note_image(material, stbi_failure_reason());
     }
-    if (material->image_size > INT_MAX)
-        return view_fail("the image of material '%s' is too large", material->name);
-    read->pixels = stbi_load_from_memory(material->image_bytes, (int)material->image_size, &width,
-                                         &height, &channels, 4);
-    if (!read->pixels)
-        return view_fail("the image of material '%s': %s", material->name, stbi_failure_reason());
-    read->width = (uint32_t)width;
-    read->height = (uint32_t)height;
-    return true;
+    read.width = read.pixels ? (uint32_t)width : 0;
+    read.height = read.pixels ? (uint32_t)height : 0;
+    return read;
 }
 
 /// The layers get the size of the largest image.
@@ -79,13 +81,12 @@ static void fill_layer(const view_albedo *albedo, const limn_material *material,
     }
 }
 
-static bool read_pictures(view_albedo *albedo, const limn_pack *pack, picture *pictures) {
+static void read_pictures(view_albedo *albedo, const limn_pack *pack, picture *pictures) {
     for (uint32_t m = 0; m < albedo->layer_count; m++) {
         const limn_material material = limn_pack_material(pack, m);
-        if (!read_picture(&material, &pictures[m])) return false;
+        pictures[m] = read_picture(&material);
         fit(albedo, &pictures[m]);
     }
-    return true;
 }
 
 static bool fill_layers(view_albedo *albedo, const limn_pack *pack, const picture *pictures) {
@@ -106,7 +107,8 @@ bool view_albedo_make(view_albedo *albedo, const limn_pack *pack) {
     if (count > VIEW_ALBEDO_LAYERS) albedo->layer_count = VIEW_ALBEDO_LAYERS;
     picture *const pictures = calloc(albedo->layer_count, sizeof *pictures);
     if (!pictures) return view_fail("out of memory for %u materials", count);
-    const bool made = read_pictures(albedo, pack, pictures) && fill_layers(albedo, pack, pictures);
+    read_pictures(albedo, pack, pictures);
+    const bool made = fill_layers(albedo, pack, pictures);
     for (uint32_t m = 0; m < albedo->layer_count; m++)
         stbi_image_free(pictures[m].pixels);
     free(pictures);

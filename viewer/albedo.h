@@ -19,7 +19,7 @@ typedef struct view_albedo {
     uint32_t width, height, layer_count;
 } view_albedo;
 
-/// Notes the images that are not in the file. Reports why and returns false on failure.
+/// Notes the images that are not in the file or cannot be read. Reports why and returns false on failure.
 bool view_albedo_make(view_albedo *albedo, const limn_pack *pack);
 void view_albedo_free(view_albedo *albedo);
 
