@@ -4,6 +4,8 @@
 
 #include <tiny_gltf.h>
 
+#include <sys/stat.h>
+
 #include <cstring>
 #include <new>
 #include <string>
@@ -13,6 +15,10 @@ namespace {
 
 /// Thrown where the context has no memory; it has recorded that.
 struct out_of_memory {};
+
+bool is_data(const std::string &uri) {
+    return uri.compare(0, 5, "data:") == 0;
+}
 
 class copier {
   public:
@@ -258,7 +264,7 @@ void copier::copy_material(const tinygltf::Material &from, limni_gltf_material *
 
 void copier::copy_image(const tinygltf::Image &from, limni_gltf_image *to) {
     to->name = text(from.name);
-    to->uri = text(from.uri);
+    to->uri = is_data(from.uri) ? "" : text(from.uri); // data of a type that tinygltf does not know
     to->view = from.bufferView;
     if (from.image.empty()) return;
     unsigned char *const bytes = make<unsigned char>(from.image.size());
@@ -301,11 +307,35 @@ bool keep_image(tinygltf::Image *image, int, std::string *, std::string *, int, 
     return true;
 }
 
-/// Only files beside the document: tinygltf would look in the working folder, too.
-bool is_beside(const std::string &path, void *folder) {
-    const std::string &beside = *static_cast<const std::string *>(folder);
-    return path.compare(0, beside.size() + 1, beside + "/") == 0 &&
-           tinygltf::FileExists(path, nullptr);
+/// Where the files that a document names may be.
+struct surroundings {
+    std::string folder;
+    std::string mistake; ///< of the file that was asked for last
+};
+
+bool climbs(const std::string &path) {
+    return ("/" + path + "/").find("/../") != std::string::npos;
+}
+
+/// What is wrong with a file by its path, relative to the folder; "": nothing.
+std::string find_mistake(const std::string &folder, const std::string &path) {
+    struct stat information;
+    if (path.empty()) return "it names no file";
+    if (is_data(path)) return "its data URI has a type that is not read";
+    if (path[0] == '/' || climbs(path)) return "'" + path + "' leaves the folder of the document";
+    if (stat((folder + "/" + path).c_str(), &information) != 0)
+        return "'" + path + "' cannot be found";
+    if (!S_ISREG(information.st_mode)) return "'" + path + "' is not a regular file";
+    return "";
+}
+
+/// Only files in the document's folder or below: tinygltf would look in the working folder, too.
+bool is_beside(const std::string &path, void *user) {
+    surroundings *const around = static_cast<surroundings *>(user);
+    const size_t start = around->folder.size() + 1;
+    if (path.compare(0, start, around->folder + "/") != 0) return false;
+    around->mistake = find_mistake(around->folder, path.substr(start));
+    return around->mistake.empty();
 }
 
 /// Nothing in a path is expanded.
@@ -314,8 +344,10 @@ std::string keep_path(const std::string &path, void *) {
 }
 
 std::string folder_of(const char *path) {
-    const char *const slash = std::strrchr(path, '/');
+    const char *slash = std::strrchr(path, '/');
     if (!slash) return ".";
+    while (slash > path && slash[-1] == '/')
+        slash--;
     return slash == path ? "/." : std::string(path, slash);
 }
 
@@ -333,19 +365,36 @@ std::string in_one_line(const std::string &words) {
     return line.empty() ? "it says no more" : line;
 }
 
+/// The words for a buffer that could not be read; as they are, if it was not a buffer. tinygltf
+/// names none, and may repeat all of a data URI.
+std::string name_buffer(const std::string &words, const tinygltf::Model &model,
+                        const surroundings &around) {
+    const auto has = [&words](const char *part) { return words.find(part) != std::string::npos; };
+    const std::string name = "buffer " + std::to_string(model.buffers.size()) + ": ";
+    if (has("Failed to decode 'uri' : "))
+        return name + "its data URI is damaged, or has another size than byteLength";
+    if (has("File not found : ")) return name + around.mistake;
+    if (has("File ") || has("in Buffer")) return name + words;
+    return words;
+}
+
 bool load(const char *path, const char *bytes, size_t size, tinygltf::Model *model,
           std::string *error) {
-    std::string folder = folder_of(path), warnings;
+    surroundings around = {folder_of(path), ""};
+    std::string warnings;
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(keep_image, nullptr);
     loader.SetFsCallbacks(
-        {is_beside, keep_path, tinygltf::ReadWholeFile, tinygltf::WriteWholeFile, &folder});
+        {is_beside, keep_path, tinygltf::ReadWholeFile, tinygltf::WriteWholeFile, &around});
     const bool binary = size >= 4 && std::memcmp(bytes, "glTF", 4) == 0;
     const unsigned int length = static_cast<unsigned int>(size);
-    return binary ? loader.LoadBinaryFromMemory(model, error, &warnings,
-                                                reinterpret_cast<const unsigned char *>(bytes),
-                                                length, folder)
-                  : loader.LoadASCIIFromString(model, error, &warnings, bytes, length, folder);
+    const bool good =
+        binary ? loader.LoadBinaryFromMemory(model, error, &warnings,
+                                             reinterpret_cast<const unsigned char *>(bytes), length,
+                                             around.folder)
+               : loader.LoadASCIIFromString(model, error, &warnings, bytes, length, around.folder);
+    if (!good) *error = name_buffer(*error, *model, around);
+    return good;
 }
 
 } // namespace

@@ -6,6 +6,13 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
+
+/// Whether bytes begin as those of a PNG or JPEG file.
+static bool is_png_or_jpeg(const unsigned char *bytes, uint64_t size) {
+    return (size >= 4 && memcmp(bytes, "\x89PNG", 4) == 0) ||
+           (size >= 3 && memcmp(bytes, "\xff\xd8\xff", 3) == 0);
+}
 
 /// The bytes of an image; none, with a note, where they are not to be had.
 static limn_bake_status add_bytes(limni_gltf_reader *reader, const limni_gltf_image *image,
@@ -27,9 +34,16 @@ static limn_bake_status add_bytes(limni_gltf_reader *reader, const limni_gltf_im
         bytes = buffer->bytes + view->offset;
         size = view->size;
     }
-    if (!bytes) {
-        limni_note(reader->context, "%s: %s: the texture '%s' is missing", document->path, label,
-                   image->uri);
+    if (!bytes && image->uri[0]) {
+        limni_note(reader->context,
+                   "%s: %s: the texture '%s' is missing: there is no such regular file in the "
+                   "folder of the document",
+                   document->path, label, image->uri);
+        return LIMN_BAKE_OK;
+    }
+    if (!bytes || !is_png_or_jpeg(bytes, size)) {
+        limni_note(reader->context, "%s: %s: it is left out: it is neither PNG nor JPEG",
+                   document->path, label);
         return LIMN_BAKE_OK;
     }
     if (!reader->context->desc.images) return LIMN_BAKE_OK;

@@ -15,6 +15,8 @@ typedef struct outcome {
     uint32_t source_count, influence_count, position_count;
     uint32_t channel_count, value_counts[2]; ///< of the first mesh, as the next ones
     limni_tags tags;
+    char image_name[64]; ///< of the first image
+    uint64_t image_size;
     uint16_t joints[LIMN_INFLUENCE_MAX]; ///< of its first position
     float weights[LIMN_INFLUENCE_MAX];
 } outcome;
@@ -44,6 +46,14 @@ static void check_creases(const limni_tags *tags) {
     if (tags->sharp_vertex_count) CHECK_EQUAL(tags->sharp_vertices[0].position, 3);
 }
 
+static void keep_image(const limni_character *character, outcome *o) {
+    if (character->images.count == 0) return;
+    const limn_file_image *const image = character->images.items;
+    snprintf(o->image_name, sizeof o->image_name, "%s",
+             (const char *)character->strings.items + image->name);
+    o->image_size = image->size;
+}
+
 static outcome read_bytes(const unsigned char *bytes, size_t size) {
     outcome o = {0};
     limni_character character = {0};
@@ -66,6 +76,7 @@ static outcome read_bytes(const unsigned char *bytes, size_t size) {
             o.value_counts[c] = check_channel(&scene.sources[0], c);
         check_creases(&scene.sources[0].tags);
         o.tags = scene.sources[0].tags;
+        keep_image(&character, &o);
     }
     limni_release_all(&context);
     return o;
@@ -93,10 +104,23 @@ typedef struct refusal {
     const char *from, *to, *error;
 } refusal;
 
+#define BUFFER "\"buffers\":[{"
+#define TEXTURE "\"uri\":\"not_there.png\""
+
 static const refusal refusals[] = {
     // The document
     {"\"version\":\"2.0\"", "\"version\":\"1.0\"", "a.glb: glTF version '1.0', but only 2 is read"},
     {"\"asset\":", "\"asset\"", "a.glb: not good glTF: "},
+    {BUFFER, BUFFER "\"uri\":\"/etc/passwd\",",
+     "buffer 0: '/etc/passwd' leaves the folder of the document"},
+    {BUFFER, BUFFER "\"uri\":\"a/%2e%2e/../b.bin\",",
+     "buffer 0: 'a/../../b.bin' leaves the folder of the document"},
+    {BUFFER, BUFFER "\"uri\":\"..bin\",", "buffer 0: '..bin' cannot be found"},
+    {BUFFER, BUFFER "\"uri\":\".\",", "buffer 0: '.' is not a regular file"},
+    {BUFFER, BUFFER "\"uri\":\"data:application/octet-stream;base64,AAAA\",",
+     "a.glb: not good glTF: buffer 0: its data URI is damaged, or has another size"},
+    {BUFFER, BUFFER "\"uri\":\"data:model/x;base64,AAAA\",",
+     "a.glb: not good glTF: buffer 0: its data URI has a type that is not read"},
     {"\"scene\":0", "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"],\"scene\":0",
      "it requires the extension KHR_draco_mesh_compression"},
     // Accessors
@@ -243,6 +267,30 @@ static void expect_note(const outcome *o, const char *note) {
     CHECK_CONTAINS(o->notes, note);
 }
 
+/// Images that are left out.
+static void test_images(glb *file) {
+    static const char *const elsewhere[] = {"/etc/passwd", "../../a.png", ".", "%2e%2e/a.png"};
+    char changed[64], note[128];
+    for (size_t e = 0; e < sizeof elsewhere / sizeof *elsewhere; e++) {
+        snprintf(changed, sizeof changed, "\"uri\":\"%s\"", elsewhere[e]);
+        snprintf(note, sizeof note, "image 0: the texture '%s' is missing", elsewhere[e]);
+        const outcome o = read_changed(file, TEXTURE, changed);
+        expect_note(&o, note);
+        CHECK_EQUAL(o.image_size, 0);
+    }
+    outcome o = read_changed(file, TEXTURE, "\"name\":\"x\",\"bufferView\":0");
+    expect_note(&o, "image 0 'x': it is left out: it is neither PNG nor JPEG");
+    CHECK_EQUAL(o.image_size, 0);
+    o = read_changed(file, TEXTURE, "\"uri\":\"data:image/webp;base64,UklGRg==\"");
+    expect_note(&o, "image 0: it is left out: it is neither PNG nor JPEG");
+    CHECK_TEXT(o.image_name, "image 0");
+    o = read_changed(file, TEXTURE, "\"uri\":\"data:image/png;base64,iVBORw0KGgo=\"");
+    CHECK_EQUAL(o.image_size, 8);
+    CHECK_TEXT(o.image_name, "image 0");
+    o = read_changed(file, TEXTURE, "\"uri\":\"data:image/jpeg;base64,/9j/\"");
+    CHECK_EQUAL(o.image_size, 3);
+}
+
 static void test_mended(glb *file) {
     const uint8_t first[4] = {255, 0, 0, 0}, none[4] = {0, 0, 0, 0}, half[4] = {100, 0, 0, 0};
     static glb changed;
@@ -272,6 +320,7 @@ static void test_mended(glb *file) {
     o = read_changed(file, "\"baseColorTexture\":{\"index\":0}",
                      "\"baseColorTexture\":{\"index\":4}");
     expect_note(&o, "material 0 'wall': its texture 4 has no image that is understood");
+    test_images(file);
     o = read_changed(file, "\"JOINTS_0\":7,", "");
     expect_note(&o, "the weights of 8 vertices (the first is 28) are all 0");
     CHECK_EQUAL(o.position_count, 31); // the ring below the lid moves otherwise
