@@ -196,9 +196,10 @@ void copier::copy_mesh(const tinygltf::Mesh &from, limni_gltf_mesh *to) {
     to->target_name_count = static_cast<uint32_t>(names.ArrayLen());
 }
 
-/// Numbers of a node, where there are as many as there should be.
-void take(const std::vector<double> &from, size_t count, double *to) {
+/// Numbers of a node, if there are any; false where there are not as many as there should be.
+bool take(const std::vector<double> &from, size_t count, double *to) {
     if (from.size() == count) std::memcpy(to, from.data(), count * sizeof *to);
+    return from.empty() || from.size() == count;
 }
 
 void copier::copy_node(const tinygltf::Node &from, limni_gltf_node *to) {
@@ -210,10 +211,11 @@ void copier::copy_node(const tinygltf::Node &from, limni_gltf_node *to) {
     to->rotation[3] = 1;
     to->scale[0] = to->scale[1] = to->scale[2] = 1;
     to->has_matrix = from.matrix.size() == 16;
-    take(from.matrix, 16, to->matrix);
-    take(from.translation, 3, to->translation);
-    take(from.rotation, 4, to->rotation);
-    take(from.scale, 3, to->scale);
+    if (!take(from.matrix, 16, to->matrix)) to->mistake = "its matrix is not 16 numbers";
+    if (!take(from.translation, 3, to->translation))
+        to->mistake = "its translation is not 3 numbers";
+    if (!take(from.rotation, 4, to->rotation)) to->mistake = "its rotation is not 4 numbers";
+    if (!take(from.scale, 3, to->scale)) to->mistake = "its scale is not 3 numbers";
     to->weights = array(from.weights, &to->weight_count);
 }
 
@@ -378,6 +380,28 @@ std::string name_buffer(const std::string &words, const tinygltf::Model &model,
     return words;
 }
 
+std::string json_of(const char *bytes, size_t size, bool binary) {
+    const size_t header = binary ? 20 : 0;
+    uint32_t length = 0;
+    if (binary) std::memcpy(&length, bytes + 12, sizeof length);
+    return std::string(bytes + header, binary ? length : size);
+}
+
+/// Whether a whole number from 0 on follows wherever good JSON has a name: tinygltf takes others
+/// for 0.
+bool are_counts(const std::string &json, const char *name) {
+    const char *const blanks = " \t\r\n";
+    const std::string quoted = "\"" + std::string(name) + "\"";
+    for (size_t at = 0; (at = json.find(quoted, at)) != std::string::npos;) {
+        at = json.find_first_not_of(blanks, at + quoted.size());
+        if (json[at] != ':') continue; // the name is a text
+        at = json.find_first_not_of(blanks, at + 1);
+        const size_t end = json.find_first_not_of("0123456789", at);
+        if (end == at || end - at > 19 || std::strchr(".eE", json[end])) return false;
+    }
+    return true;
+}
+
 bool load(const char *path, const char *bytes, size_t size, tinygltf::Model *model,
           std::string *error) {
     surroundings around = {folder_of(path), ""};
@@ -388,12 +412,19 @@ bool load(const char *path, const char *bytes, size_t size, tinygltf::Model *mod
         {is_beside, keep_path, tinygltf::ReadWholeFile, tinygltf::WriteWholeFile, &around});
     const bool binary = size >= 4 && std::memcmp(bytes, "glTF", 4) == 0;
     const unsigned int length = static_cast<unsigned int>(size);
-    const bool good =
+    bool good =
         binary ? loader.LoadBinaryFromMemory(model, error, &warnings,
                                              reinterpret_cast<const unsigned char *>(bytes), length,
                                              around.folder)
                : loader.LoadASCIIFromString(model, error, &warnings, bytes, length, around.folder);
     if (!good) *error = name_buffer(*error, *model, around);
+    // What it says of colours and goes on without; it also complains of what is good.
+    if (error->find("`baseColorFactor`") != std::string::npos) good = false;
+    for (const char *const name : {"byteOffset", "byteStride"}) {
+        if (!good || are_counts(json_of(bytes, size, binary), name)) continue;
+        *error = std::string(name) + " is not a whole number from 0 on";
+        good = false;
+    }
     return good;
 }
 

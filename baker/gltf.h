@@ -93,6 +93,7 @@ typedef struct limni_gltf_node {
     double translation[3], rotation[4], scale[3];
     double *weights;
     uint32_t weight_count;
+    const char *mistake; ///< what is wrong with its numbers; NULL: nothing
 } limni_gltf_node;
 
 typedef struct limni_gltf_skin {

@@ -228,6 +228,7 @@ limn_bake_status limni_gltf_read_nodes(limni_gltf_reader *reader) {
         limni_gltf_place *const place = &reader->places[reader->order[o]];
         const limni_gltf_node *const node = &document->nodes[reader->order[o]];
         const limni_transform local = limni_gltf_local(node);
+        if (node->mistake) return refuse_node(reader, reader->order[o], node->mistake);
         place->global = local;
         if (place->parent != LIMN_FORMAT_NONE) {
             const limni_gltf_place *const parent = &reader->places[place->parent];
