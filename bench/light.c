@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Light on vertices, beside their evaluation. */
-#include "arguments.h"
 #include "bench.h"
 #include "mixes.h"
+#include "steps.h"
 
 #include <stdlib.h>
 
@@ -19,13 +19,7 @@ static const char help[] =
     "  --quick        3 rounds of short samples\n"
     "  --csv FILE     writes all figures\n";
 
-enum { ROUND_MAX = 1000, TORUS_SIDE = 64, LIGHT_MAX = 8 };
-
-typedef struct options {
-    uint32_t isa, rounds;
-    double sample_seconds;
-    const char *csv;
-} options;
+enum { TORUS_SIDE = 64, LIGHT_MAX = 8 };
 
 /// What is measured; with normals, those are written, too.
 typedef struct step {
@@ -125,7 +119,7 @@ static void print_step(const subject *s, const step *which, uint32_t level, doub
                        const double *positions, uint32_t rounds, FILE *csv) {
     const limn_mesh *const mesh = &s->mix.mesh;
     const double vertex_count = (double)limn_plan_uniform(mesh, level).vertex_count;
-    double shares[ROUND_MAX];
+    double shares[BENCH_ROUND_MAX];
     for (uint32_t round = 0; round < rounds; round++)
         shares[round] = samples[round] / positions[round];
     const double share = bench_median(shares, rounds);
@@ -136,8 +130,8 @@ static void print_step(const subject *s, const step *which, uint32_t level, doub
                 level, which->name, ns, share);
 }
 
-static void measure(subject *s, uint32_t level, const options *o, FILE *csv) {
-    static double samples[STEP_COUNT][ROUND_MAX], positions[ROUND_MAX];
+static void measure(subject *s, uint32_t level, const bench_steps_options *o, FILE *csv) {
+    static double samples[STEP_COUNT][BENCH_ROUND_MAX], positions[BENCH_ROUND_MAX];
     for (uint32_t round = 0; round < o->rounds; round++) {
         for (int i = 0; i < STEP_COUNT; i++)
             samples[i][round] = sample(s, &steps[i], level, o->sample_seconds);
@@ -150,7 +144,7 @@ static void measure(subject *s, uint32_t level, const options *o, FILE *csv) {
 }
 
 /// `path` NULL: a torus.
-static bool bench_mesh(const char *path, const options *o, FILE *csv) {
+static bool bench_mesh(const char *path, const bench_steps_options *o, FILE *csv) {
     static subject s;
     s = (subject){0};
     if (!(path ? bench_mix_file(&s.mix, path, (bench_way){0})
@@ -172,47 +166,8 @@ static bool bench_mesh(const char *path, const options *o, FILE *csv) {
     return good;
 }
 
-static bool bench_all(const options *o, char **paths, int path_count) {
-    limni_output_file csv;
-    if (!bench_results_open(&csv, o->csv)) return false;
-    if (csv.stream) {
-        fprintf(csv.stream, "# ");
-        bench_print_conditions(csv.stream);
-        fprintf(csv.stream, "mesh,isa,level,step,ns_per_vertex,share\n");
-    }
-    bench_print_conditions(stdout);
-    bool good = path_count > 0 || bench_mesh(NULL, o, csv.stream);
-    for (int p = 0; p < path_count; p++)
-        good &= bench_mesh(paths[p], o, csv.stream);
-    return bench_results_close(&csv, o->csv, good);
-}
-
-static bool parse_option(int option, void *parsed) {
-    options *const to = parsed;
-    switch (option) {
-    case 'i':
-        return bench_parse_isa(optarg, &to->isa);
-    case 'r':
-        return bench_parse_range(optarg, 1, ROUND_MAX, &to->rounds);
-    case 'q':
-        to->rounds = 3;
-        to->sample_seconds = 3e-4;
-        return true;
-    case 'c':
-        to->csv = optarg;
-        return true;
-    default:
-        return false;
-    }
-}
-
 int bench_light(int argc, char **argv) {
-    static const struct option names[] = {
-        {"isa", required_argument, NULL, 'i'}, {"rounds", required_argument, NULL, 'r'},
-        {"quick", no_argument, NULL, 'q'},     {"csv", required_argument, NULL, 'c'},
-        {"help", no_argument, NULL, 'h'},      {0}};
-    options o = {.isa = LIMN_ISA_ALL, .rounds = 15, .sample_seconds = 2e-3};
-    const int status = bench_read_options(argc, argv, help, names, parse_option, &o);
-    if (status >= 0) return status;
-    return bench_all(&o, argv + optind, argc - optind) ? 0 : 1;
+    static const bench_steps these = {
+        .help = help, .columns = "mesh,isa,level,step,ns_per_vertex,share", .measure = bench_mesh};
+    return bench_steps_run(argc, argv, &these);
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* What moving the control points of a character costs beside evaluating it. */
-#include "arguments.h"
 #include "bench.h"
 #include "mixes.h"
 #include "rig.h"
+#include "steps.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -22,14 +22,7 @@ static const char help[] =
     "  --quick        3 rounds of short samples\n"
     "  --csv FILE     writes all figures\n";
 
-enum { ROUND_MAX = 1000, TORUS_SIDE = 64, JOINT_COUNT = 60, TARGET_COUNT = 10, TARGET_PART = 10 };
-
-typedef struct options {
-    uint32_t isa;
-    uint32_t rounds;
-    double sample_seconds;
-    const char *csv;
-} options;
+enum { TORUS_SIDE = 64, JOINT_COUNT = 60, TARGET_COUNT = 10, TARGET_PART = 10 };
 
 /// A character, and what a frame of it is made with.
 typedef struct character {
@@ -204,7 +197,7 @@ static double sample(character *c, const step *s, double least_seconds) {
 static void print_step(const character *c, const step *s, double *samples, const double *level_4,
                        uint32_t rounds, FILE *csv) {
     const limn_mesh *const mesh = &c->mix.mesh;
-    double shares[ROUND_MAX];
+    double shares[BENCH_ROUND_MAX];
     for (uint32_t round = 0; round < rounds; round++)
         shares[round] = samples[round] / level_4[round];
     const double share = bench_median(shares, rounds);
@@ -216,8 +209,8 @@ static void print_step(const character *c, const step *s, double *samples, const
                 ns, share);
 }
 
-static void measure(character *c, const options *o, FILE *csv) {
-    static double samples[STEP_COUNT][ROUND_MAX];
+static void measure(character *c, const bench_steps_options *o, FILE *csv) {
+    static double samples[STEP_COUNT][BENCH_ROUND_MAX];
     const limn_mesh *const mesh = &c->mix.mesh;
     const bool isolated = mesh->point_count > mesh->control_count;
     for (uint32_t round = 0; round < o->rounds; round++) {
@@ -234,7 +227,7 @@ static void measure(character *c, const options *o, FILE *csv) {
 }
 
 /// `path` NULL: a torus.
-static bool bench_character(const char *path, const options *o, FILE *csv) {
+static bool bench_character(const char *path, const bench_steps_options *o, FILE *csv) {
     static character c;
     const bool good = create_character(&c, path, o->isa);
     if (good) measure(&c, o, csv);
@@ -242,47 +235,10 @@ static bool bench_character(const char *path, const options *o, FILE *csv) {
     return good;
 }
 
-static bool run(const options *o, char **paths, int path_count) {
-    limni_output_file csv;
-    if (!bench_results_open(&csv, o->csv)) return false;
-    if (csv.stream) {
-        fprintf(csv.stream, "# ");
-        bench_print_conditions(csv.stream);
-        fprintf(csv.stream, "mesh,isa,control_points,faces,step,ns_per_control_point,share\n");
-    }
-    bench_print_conditions(stdout);
-    bool good = path_count > 0 || bench_character(NULL, o, csv.stream);
-    for (int p = 0; p < path_count; p++)
-        good &= bench_character(paths[p], o, csv.stream);
-    return bench_results_close(&csv, o->csv, good);
-}
-
-static bool parse_option(int option, void *parsed) {
-    options *const to = parsed;
-    switch (option) {
-    case 'i':
-        return bench_parse_isa(optarg, &to->isa);
-    case 'r':
-        return bench_parse_range(optarg, 1, ROUND_MAX, &to->rounds);
-    case 'q':
-        to->rounds = 3;
-        to->sample_seconds = 3e-4;
-        return true;
-    case 'c':
-        to->csv = optarg;
-        return true;
-    default:
-        return false;
-    }
-}
-
 int bench_skin(int argc, char **argv) {
-    static const struct option names[] = {
-        {"isa", required_argument, NULL, 'i'}, {"rounds", required_argument, NULL, 'r'},
-        {"quick", no_argument, NULL, 'q'},     {"csv", required_argument, NULL, 'c'},
-        {"help", no_argument, NULL, 'h'},      {0}};
-    options o = {.isa = LIMN_ISA_ALL, .rounds = 15, .sample_seconds = 2e-3};
-    const int status = bench_read_options(argc, argv, help, names, parse_option, &o);
-    if (status >= 0) return status;
-    return run(&o, argv + optind, argc - optind) ? 0 : 1;
+    static const bench_steps these = {
+        .help = help,
+        .columns = "mesh,isa,control_points,faces,step,ns_per_control_point,share",
+        .measure = bench_character};
+    return bench_steps_run(argc, argv, &these);
 }
