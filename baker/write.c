@@ -35,8 +35,8 @@ typedef struct part {
 
 static int compare_parts(const void *a, const void *b) {
     const part *const left = a, *const right = b;
-    const uint64_t left_key = (uint64_t)(uint32_t)(left->mesh + 1) << 32 | left->kind;
-    const uint64_t right_key = (uint64_t)(uint32_t)(right->mesh + 1) << 32 | right->kind;
+    const uint64_t left_key = limn_file_chunk_key(left->mesh, left->kind);
+    const uint64_t right_key = limn_file_chunk_key(right->mesh, right->kind);
     return (left_key > right_key) - (left_key < right_key);
 }
 

@@ -26,19 +26,14 @@ static inline const limn_file_chunk *directory_of(const limn_pack *pack) {
     return (const limn_file_chunk *)(const void *)bytes_at(pack, sizeof(limn_file_header));
 }
 
-/// The directory is sorted by this: the chunks of the file first, then mesh by mesh.
-static inline uint64_t chunk_key(uint32_t mesh, uint32_t kind) {
-    return (uint64_t)(uint32_t)(mesh + 1) << 32 | kind;
-}
-
 static inline const limn_file_chunk *find_chunk(const limn_pack *pack, uint32_t mesh,
                                                 uint32_t kind) {
     const limn_file_chunk *const chunks = directory_of(pack);
-    const uint64_t key = chunk_key(mesh, kind);
+    const uint64_t key = limn_file_chunk_key(mesh, kind);
     uint32_t low = 0, high = header_of(pack)->chunk_count;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
-        const uint64_t other = chunk_key(chunks[middle].mesh, chunks[middle].kind);
+        const uint64_t other = limn_file_chunk_key(chunks[middle].mesh, chunks[middle].kind);
         if (other == key) return &chunks[middle];
         if (other < key) {
             low = middle + 1;

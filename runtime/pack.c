@@ -76,7 +76,7 @@ static limn_result validate_directory(const limn_pack *pack) {
     uint64_t last_key = 0, end = sizeof *header + header->chunk_count * sizeof(limn_file_chunk);
     for (uint32_t c = 0; c < header->chunk_count; c++) {
         const limn_file_chunk *const chunk = &directory_of(pack)[c];
-        const uint64_t key = chunk_key(chunk->mesh, chunk->kind);
+        const uint64_t key = limn_file_chunk_key(chunk->mesh, chunk->kind);
         if (c > 0 && key <= last_key) return LIMN_ERROR_CHUNK;
         last_key = key;
         if (chunk->mesh != LIMN_FORMAT_NO_MESH && chunk->mesh >= record_count)

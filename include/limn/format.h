@@ -146,6 +146,11 @@ typedef struct limn_file_chunk {
     uint64_t size;   ///< in bytes, without padding
 } limn_file_chunk;
 
+/// By this, the directory ascends: the chunks of the file first, then mesh by mesh.
+static inline uint64_t limn_file_chunk_key(uint32_t mesh, uint32_t kind) {
+    return (uint64_t)(uint32_t)(mesh + 1) << 32 | kind;
+}
+
 /// The limn_domain_kind of quads.
 #define LIMN_FORMAT_QUAD 1u
 
