@@ -156,9 +156,21 @@ for mesh in -1 x 0x "" 4294967296; do
     expect_error 2 "$file" --png "$out" --mesh "$mesh"
 done
 
-draw uv --size 160x120 --colour uv
 draw normals --size 160x120 --colour normals
 expect_different shaded normals
+
+# A character, baked as it is opened: its material, its texture coordinates, and a moment of its clip.
+imp=$file
+file=$(cd "$(dirname "$0")/.." && pwd)/assets/imp.gltf
+for colour in materials clay uv; do
+    draw character_$colour --size 160x120 --level 1 --colour $colour
+done
+draw character_waves --size 160x120 --level 1 --clip wave --time 0.25
+expect_different character_materials character_clay
+expect_different character_uv character_clay
+expect_different character_waves character_materials
+file=$imp
+
 expect_error 2 "$file" --png "$out" --colour red
 expect_error 2 "$file" --png "$out" --shade round
 expect_error 2 "$file" --png "$out" --light dim
