@@ -159,18 +159,34 @@ static void evaluate(const limn_plan *plan, const limn_mesh *mesh, const limni_p
     }
 }
 
+static limni_points make_points(const limn_mesh *mesh, const float *controls,
+                                const limn_output *output) {
+    const bool shaded = output->normals || output->colours;
+    return (limni_points){.controls = controls,
+                          .origin = mesh->origin,
+                          .normals = shaded ? output->control_normals : NULL};
+}
+
 void limn_evaluate(const limn_plan *plan, const float *controls, uint32_t begin, uint32_t end,
                    const limn_output *output) {
     LIMNI_REQUIRE(plan && controls && output && begin <= end && end <= plan->patch_count, );
     if (begin == end) return;
     const limn_mesh *const mesh = plan->mesh;
     LIMNI_REQUIRE(is_valid(mesh, output), );
-    const bool shaded = output->normals || output->colours;
-    const limni_points points = {.controls = controls,
-                                 .origin = mesh->origin,
-                                 .normals = shaded ? output->control_normals : NULL};
+    const limni_points points = make_points(mesh, controls, output);
     const limni_target target = make_target(mesh, output);
     evaluate(plan, mesh, &points, begin, end, &target);
+}
+
+void limn_base_evaluate(const limn_base *base, const float *controls, uint32_t begin, uint32_t end,
+                        const limn_output *output) {
+    LIMNI_REQUIRE(base && controls && output && begin <= end && end <= base->vertex_count, );
+    if (begin == end) return;
+    const limn_mesh *const mesh = base->mesh;
+    LIMNI_REQUIRE(is_valid(mesh, output), );
+    const limni_points points = make_points(mesh, controls, output);
+    const limni_target target = make_target(mesh, output);
+    mesh->kernels->evaluate_base(base, &points, begin, end, &target);
 }
 
 /// Whether memory that starts at `start` may hold elements of a format every `stride` bytes.

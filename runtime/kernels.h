@@ -162,6 +162,9 @@ struct limn_kernels {
     uint32_t isa;
     limn_family family;
     void (*evaluate)(const limni_run *run, const limni_points *points, const limni_target *target);
+    /// Vertices [begin, end) of a base mesh; those of the target begin with vertex 0.
+    void (*evaluate_base)(const limn_base *base, const limni_points *points, uint32_t begin,
+                          uint32_t end, const limni_target *target);
     /// See limn_mesh_refine().
     void (*refine)(const limn_mesh *mesh, float *controls);
     /// See limn_mesh_control_normals().

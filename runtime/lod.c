@@ -1,10 +1,24 @@
 /* SPDX-License-Identifier: MIT */
-/* Loops over whole blocks, without branches: what lies behind the last patch is computed, too. */
+/* Loops go over whole blocks, without branches: what lies behind the last patch is computed, too. */
 #include "lod.h"
 
 #include "edge_error.h"
 
 #include <math.h>
+
+limn_lod_desc limni_lod_complete(const limn_lod_desc *desc) {
+    limn_lod_desc d = desc ? *desc : (limn_lod_desc){0};
+    if (d.pixels == 0) d.pixels = d.lod == LIMN_LOD_ERROR ? 1 : 8;
+    if (d.max_level == 0) d.max_level = LIMN_LEVEL_MAX;
+    return d;
+}
+
+bool limni_lod_is_valid(const limn_lod_desc *desc, const limn_mesh *mesh) {
+    return (unsigned)desc->lod <= LIMN_LOD_ERROR && desc->min_level >= 0 &&
+           desc->max_level <= LIMN_LEVEL_MAX && desc->min_level <= desc->max_level &&
+           desc->pixels > 0 && fabsf(desc->bias) <= 16 && isfinite(desc->level) &&
+           (desc->lod != LIMN_LOD_ERROR || mesh->errors);
+}
 
 static inline float square(float a) {
     return a * a;

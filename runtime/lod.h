@@ -5,6 +5,14 @@
 
 #include "limn/limn.h"
 
+/// With the defaults filled in.
+///
+/// desc  NULL: all defaults
+limn_lod_desc limni_lod_complete(const limn_lod_desc *desc);
+
+/// Whether levels of a mesh can be chosen so; of what is complete.
+bool limni_lod_is_valid(const limn_lod_desc *desc, const limn_mesh *mesh);
+
 enum { LIMNI_LOD_BLOCK = 64 };
 
 /// What edges are measured by: structure of arrays, so that compilers find vectors.

@@ -314,14 +314,6 @@ static bool is_valid_view(const limn_view *view, bool uniform) {
                        (view->orthographic || view->nearest > 0));
 }
 
-/// With the defaults filled in.
-static bool is_valid_desc(const limn_mesh *mesh, const limn_lod_desc *desc) {
-    return (unsigned)desc->lod <= LIMN_LOD_ERROR && desc->min_level >= 0 &&
-           desc->max_level <= LIMN_LEVEL_MAX && desc->min_level <= desc->max_level &&
-           desc->pixels > 0 && fabsf(desc->bias) <= 16 && isfinite(desc->level) &&
-           (desc->lod != LIMN_LOD_ERROR || mesh->errors);
-}
-
 limn_plan limn_plan_build(const limn_mesh *mesh, const float *controls, const limn_view *views,
                           uint32_t view_count, const limn_lod_desc *desc,
                           const limn_template *templates, void *memory) {
@@ -331,10 +323,8 @@ limn_plan limn_plan_build(const limn_mesh *mesh, const float *controls, const li
                  .controls = controls,
                  .views = views,
                  .view_count = view_count,
-                 .desc = desc ? *desc : (limn_lod_desc){0}};
-    if (p.desc.pixels == 0) p.desc.pixels = p.desc.lod == LIMN_LOD_ERROR ? 1 : 8;
-    if (p.desc.max_level == 0) p.desc.max_level = LIMN_LEVEL_MAX;
-    LIMNI_REQUIRE(is_valid_desc(mesh, &p.desc), (limn_plan){0});
+                 .desc = limni_lod_complete(desc)};
+    LIMNI_REQUIRE(limni_lod_is_valid(&p.desc, mesh), (limn_plan){0});
     for (uint32_t v = 0; v < view_count; v++)
         LIMNI_REQUIRE(is_valid_view(&views[v], p.desc.lod == LIMN_LOD_UNIFORM), (limn_plan){0});
     const plan_layout layout = lay_out(mesh);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The evaluation kernel, written once. A kernels_<isa>.c includes its lanes first, then this.
- * sums.h, light.h, formats.h and stores.h are its steps; between them, everything stays in L1.
+ * The evaluation kernel, written once. A kernels_<isa>.c includes its lanes first, then this by way
+ * of base_body.h. sums.h, light.h, formats.h and stores.h are its steps; between them, everything stays in L1.
  */
 #include "control_normals_body.h"
 #include "light.h"
@@ -219,11 +219,13 @@ static inline void find_row_normals(const limni_target *target, const wanted *wh
                        what->control_normals, &rows->along);
 }
 
-static inline void light_rows(const limni_target *target, size_t row_count, scratch *rows) {
+/// corner_count  rows whose normals are known; where that is all of them, both modes are the same
+static inline void light_rows(const limni_target *target, size_t corner_count, size_t row_count,
+                              scratch *rows) {
     const lit_patch lit = {.grid = target->grid,
                            .positions = &rows->positions,
                            .normals = &rows->along,
-                           .corner_count = target->domain->corner_count,
+                           .corner_count = corner_count,
                            .row_count = row_count,
                            .colours = &rows->across};
     light_patch(target->lighting, &lit);
@@ -238,20 +240,25 @@ static inline void morph_rows(const limni_target *target, const limn_plan_patch 
     if (target->colours) morph_patch(target->domain, item, false, &rows->across);
 }
 
+static inline void pack_and_store(const limni_target *target, const parts *to, size_t row_count,
+                                  scratch *rows) {
+    const float *const planes = (const float *)(const void *)rows;
+    pack_positions(target, row_count, &rows->positions);
+    if (target->normals) pack_normals(target->normal_format, row_count, &rows->along);
+    if (target->colours) pack_rgba8(row_count, &rows->across);
+    if (target->streaming) {
+        stream_parts(to, planes, row_count);
+    } else {
+        store_parts(to, planes, row_count);
+    }
+}
+
 static LIMNI_NOINLINE void store_patch(const limni_target *target, const parts *to,
                                        const wanted *what, scratch *rows) {
-    const float *const planes = (const float *)(const void *)rows;
     if (what->control_normals) find_row_normals(target, what, rows);
-    if (target->colours) light_rows(target, what->row_count, rows);
+    if (target->colours) light_rows(target, target->domain->corner_count, what->row_count, rows);
     if (what->item) morph_rows(target, what->item, rows);
-    pack_positions(target, what->row_count, &rows->positions);
-    if (target->normals) pack_normals(target->normal_format, what->row_count, &rows->along);
-    if (target->colours) pack_rgba8(what->row_count, &rows->across);
-    if (target->streaming) {
-        stream_parts(to, planes, what->row_count);
-    } else {
-        store_parts(to, planes, what->row_count);
-    }
+    pack_and_store(target, to, what->row_count, rows);
 }
 
 // ---- Summing

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #include "lanes_neon.h"
 
-#include "evaluate_body.h"
+#include "base_body.h"
 
 const limn_kernels limni_kernels_neon = {
     .name = "neon",
     .isa = LIMN_ISA_NEON,
     .family = LIMN_FAMILY_REPRODUCIBLE,
     .evaluate = evaluate_run,
+    .evaluate_base = evaluate_base,
     .refine = refine_mesh,
     .control_normals = find_control_normals,
     .skin = skin_range,

@@ -748,6 +748,74 @@ void limn_mesh_control_normals(const limn_mesh *mesh, const float *controls, flo
 void limn_evaluate(const limn_plan *plan, const float *controls, uint32_t begin, uint32_t end,
                    const limn_output *output);
 
+// -------------------------------------------------------------------------------------------------
+// Base meshes
+//
+// What is far away needs no patches: where level 0 is enough everywhere, a mesh can be drawn as its
+// base faces, with their corners on the limit surface. Vertices are shared, so there is about a
+// sixth of what the patches of triangles have, nothing to plan, and one draw.
+
+/// A vertex of a base mesh: what some corners of patches have in common.
+typedef struct limn_base_vertex {
+    uint32_t
+        corner; ///< the first of them: patch * domain->corner_count + its corner, which is also
+                ///< its vertex in limn_plan_uniform(mesh, 0)
+    uint32_t normal;                 ///< among those of limn_mesh_control_normals()
+    uint32_t first_term, term_count; ///< its stencil
+} limn_base_vertex;
+
+/// A base mesh, in the caller's memory. Plain data.
+typedef struct limn_base {
+    const limn_mesh *mesh;
+    uint32_t vertex_count;
+    uint32_t index_count;    ///< patch_count * domain->index_counts[0]
+    const uint32_t *indices; ///< [index_count] counter-clockwise triangles, patch by patch, so that
+                             ///< the patches of a material are consecutive
+    const limn_base_vertex *vertices;   ///< [vertex_count]
+    const struct limn_file_term *terms; ///< of the stencils, see format.h
+    float length;                       ///< of the longest edge of the bind pose, model units
+    float error;                        ///< of level 0 in the bind pose, the largest of any edge
+    size_t size;                        ///< bytes of memory that are still needed
+} limn_base;
+
+/// Bytes of memory that limn_base_build() needs, of which about a third stays in use. Takes as long
+/// as building.
+size_t limn_base_size(const limn_mesh *mesh);
+
+/// Makes the base mesh of a mesh: once, in some 100 nanoseconds a patch. Corners are one vertex where
+/// they have the same base vertex, the same normal and the same values in all channels. As those do
+/// not move, a channel is evaluated once, for limn_plan_uniform(mesh, 0), of which
+/// limn_base_vertex.corner are the vertices to take. Does not allocate, never fails; any thread.
+///
+/// pack    that of the mesh, for its channels
+/// mesh    must outlive the base mesh; its patches have at most UINT32_MAX corners
+/// memory  [limn_base_size()] bytes, aligned to 8
+limn_base limn_base_build(const limn_pack *pack, const limn_mesh *mesh, void *memory);
+
+/// Whether level 0 is enough in all views for a mesh within a box: all levels that
+/// limn_plan_build() chooses by `desc` are 0 then, unless edges are longer than in the bind pose.
+/// Never where `min_level` is more; the vertex budget is not asked, nor with LIMN_LOD_ERROR a negative
+/// bias. Does not allocate, never fails;
+/// any thread.
+///
+/// box    [2][3], min and max of the control points, in the space of the views
+/// views  [view_count], see limn_plan_build()
+/// desc   NULL: all defaults
+bool limn_base_suffices(const limn_base *base, const float *box, const limn_view *views,
+                        uint32_t view_count, const limn_lod_desc *desc);
+
+/// Evaluates vertices [begin, end) of a base mesh: the bits that limn_evaluate() gives the same
+/// corners with reproducible kernels, with kernels of any family. Otherwise as limn_evaluate().
+///
+/// controls    [mesh->point_count][3] floats, model units
+/// begin, end  0 <= begin <= end <= base->vertex_count
+/// output      room for base->vertex_count vertices, of which only those of the range are written
+void limn_base_evaluate(const limn_base *base, const float *controls, uint32_t begin, uint32_t end,
+                        const limn_output *output);
+
+// -------------------------------------------------------------------------------------------------
+// Evaluating channels
+
 /// How a value of a channel is written. Integers are rounded to the nearest, and halves, too.
 typedef enum limn_value_format {
     LIMN_VALUE_FLOAT3,    ///< 12 bytes
