@@ -18,6 +18,10 @@
 extern "C" {
 #endif
 
+// -------------------------------------------------------------------------------------------------
+// Options of the baker
+
+/// Whether a call succeeded, and if not, the kind of error: limn_baker_error() says which one.
 typedef enum limn_bake_status {
     LIMN_BAKE_OK,
     LIMN_BAKE_BAD_INPUT, ///< the mesh cannot be baked; the text names the file, line, face or edge
@@ -139,6 +143,9 @@ typedef struct limn_bake_desc {
     void *user; ///< passed to the callbacks
 } limn_bake_desc;
 
+// -------------------------------------------------------------------------------------------------
+// Meshes to bake
+
 /// Values that belong to the corners of faces.
 typedef struct limn_bake_channel {
     const char *name; ///< such as "uv"; NULL: "channel"
@@ -173,6 +180,10 @@ typedef struct limn_bake_mesh {
     limn_creasing creasing; ///< likewise
 } limn_bake_mesh;
 
+// -------------------------------------------------------------------------------------------------
+// Baking
+
+/// What bakes one file: opaque.
 typedef struct limn_baker limn_baker;
 
 /// A baker for one file. NULL desc: defaults. Options that do nothing with the scheme, or contradict
@@ -180,6 +191,8 @@ typedef struct limn_baker limn_baker;
 /// Returns NULL only when out of memory; limn_baker_error() and limn_baker_destroy() take NULL. Any
 /// thread; one thread at a time.
 limn_baker *limn_baker_create(const limn_bake_desc *desc);
+
+/// Frees a baker, and the blob that belongs to it.
 void limn_baker_destroy(limn_baker *baker);
 
 /// Adds the mesh in an .obj, .off or .ply file, named after the file; or of a .gltf or .glb file all

@@ -27,6 +27,9 @@ extern "C" {
 
 #define LIMN_NONE 0xffffffffu ///< no parent, no image, no material
 
+// -------------------------------------------------------------------------------------------------
+// Characters
+
 /// The joints that move the meshes of a pack, of all its characters.
 typedef struct limn_skeleton {
     uint32_t joint_count;                 ///< 0: the file has no skeleton
@@ -59,8 +62,10 @@ typedef struct limn_clip {
     const float *keys;
 } limn_clip;
 
-/// How many clips there are, and clip `clip` of them. Never fail.
+/// How many clips there are. Never fails.
 uint32_t limn_pack_clip_count(const limn_pack *pack);
+
+/// Clip `clip` < limn_pack_clip_count(). Never fails.
 limn_clip limn_pack_clip(const limn_pack *pack, uint32_t clip);
 
 /// What a clip shows before its start and after its end. Before its first key and after its last, a
@@ -101,6 +106,9 @@ const char *limn_mesh_morph_name(const limn_pack *pack, uint32_t mesh_index, uin
 void limn_clip_morph_weights(const limn_pack *pack, uint32_t mesh_index, const limn_clip *clip,
                              float time, limn_wrap wrap, float *weights);
 
+// -------------------------------------------------------------------------------------------------
+// Materials
+
 /// A material: a colour, which a texture is multiplied with.
 typedef struct limn_material {
     const char *name;
@@ -112,8 +120,10 @@ typedef struct limn_material {
     uint32_t texture_channel; ///< of its texture coordinates, n of TEXCOORD_n in glTF
 } limn_material;
 
-/// How many materials there are, and material `material` of them. Never fail.
+/// How many materials there are. Never fails.
 uint32_t limn_pack_material_count(const limn_pack *pack);
+
+/// Material `material` < limn_pack_material_count(). Never fails.
 limn_material limn_pack_material(const limn_pack *pack, uint32_t material);
 
 /// Consecutive patches of one material.
@@ -122,9 +132,11 @@ typedef struct limn_material_range {
     uint32_t first_patch, patch_count;
 } limn_material_range;
 
-/// How many ranges the patches of a mesh have, and range `range` of them. They follow one another
-/// and cover all patches; or there are none, where materials are not said. Never fail.
+/// How many ranges the patches of a mesh have. They follow one another and cover all patches; or
+/// there are none, where materials are not said. Never fails.
 uint32_t limn_mesh_material_range_count(const limn_pack *pack, uint32_t mesh_index);
+
+/// Range `range` < limn_mesh_material_range_count() of a mesh. Never fails.
 limn_material_range limn_mesh_material_range(const limn_pack *pack, uint32_t mesh_index,
                                              uint32_t range);
 

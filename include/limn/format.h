@@ -15,6 +15,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/// `condition` holds wherever this is compiled.
 #ifdef __cplusplus
 #define LIMN_STATIC_ASSERT(condition, text) static_assert(condition, text)
 extern "C" {
@@ -22,8 +23,11 @@ extern "C" {
 #define LIMN_STATIC_ASSERT(condition, text) _Static_assert(condition, text)
 #endif
 
-#define LIMN_FORMAT_MAGIC "LIMN"
-#define LIMN_FORMAT_VERSION 6u
+// -------------------------------------------------------------------------------------------------
+// The file
+
+#define LIMN_FORMAT_MAGIC "LIMN" ///< the first four bytes
+#define LIMN_FORMAT_VERSION 6u   ///< of files that this version of Limn reads and writes
 
 /// Alignment of the blob in memory and of every chunk in the file, in bytes.
 #define LIMN_FORMAT_ALIGNMENT 64u
@@ -50,6 +54,9 @@ extern "C" {
 /// The `mesh` of a chunk that belongs to the file and not to one of its meshes.
 #define LIMN_FORMAT_NO_MESH 0xffffffffu
 
+// -------------------------------------------------------------------------------------------------
+// Chunks of a file
+
 /// Chunk kinds: four characters, read as a little-endian number.
 #define LIMN_FORMAT_KIND(a, b, c, d)                                                               \
     ((uint32_t)(a) | (uint32_t)(b) << 8 | (uint32_t)(c) << 16 | (uint32_t)(d) << 24)
@@ -60,10 +67,12 @@ extern "C" {
 #define LIMN_CHUNK_TABLES                                                                          \
     LIMN_FORMAT_KIND('T', 'A', 'B', 'L') ///< float[]: the stencil tables of all classes
 
-/// Where meshes are isolated: limn_file_piece[]; and uint16_t[], of each class that is made of
-/// pieces first the four pieces, the corners' and of a triangle the middle one, and then for each of
-/// them the column of each of the K slots, or LIMN_FORMAT_NO_COLUMN.
+/// Where meshes are isolated: limn_file_piece[].
 #define LIMN_CHUNK_PIECES LIMN_FORMAT_KIND('P', 'I', 'E', 'C')
+
+/// Where meshes are isolated: uint16_t[], of each class that is made of pieces first the four
+/// pieces, the corners' and of a triangle the middle one, and then for each of them the column
+/// of each of the K slots, or LIMN_FORMAT_NO_COLUMN.
 #define LIMN_CHUNK_COLUMNS LIMN_FORMAT_KIND('C', 'O', 'L', 'S')
 
 #define LIMN_CHUNK_MESH LIMN_FORMAT_KIND('M', 'E', 'S', 'H') ///< limn_file_mesh, one per mesh
@@ -82,49 +91,64 @@ extern "C" {
     LIMN_FORMAT_KIND('E', 'R', 'R', 'S') ///< uint16_t[patch_count][corners]: errors of edges
 
 /// Where a mesh has more points than control points: uint32_t[point_count - control_count + 1],
-/// where the terms of each of them begin, and end; and limn_file_term[].
+/// where the terms of each of them begin, and end.
 #define LIMN_CHUNK_STENCILS LIMN_FORMAT_KIND('S', 'T', 'N', 'C')
+
+/// Where a mesh has more points than control points: limn_file_term[].
 #define LIMN_CHUNK_TERMS LIMN_FORMAT_KIND('T', 'E', 'R', 'M')
 
-/// In files with normals: limn_file_normal[] of the base vertices, uint32_t[] and float[].
+/// In files with normals: limn_file_normal[] of the base vertices.
 #define LIMN_CHUNK_NORMALS LIMN_FORMAT_KIND('N', 'R', 'M', 'L')
+
+/// In files with normals: uint32_t[], the points of rings.
 #define LIMN_CHUNK_RINGS LIMN_FORMAT_KIND('R', 'I', 'N', 'G')
+
+/// In files with normals: float[], the weights of these points.
 #define LIMN_CHUNK_WEIGHTS LIMN_FORMAT_KIND('W', 'G', 'H', 'T')
 
-/// In meshes with sharp creases: uint8_t[patch_count], and with normals, where there are sides,
-/// limn_file_side[] and uint32_t[patch_count][corners].
+/// In meshes with sharp creases: uint8_t[patch_count], as limn_mesh.creases.
 #define LIMN_CHUNK_CREASES LIMN_FORMAT_KIND('C', 'R', 'E', 'A')
+
+/// In files with normals, where there are sides: limn_file_side[].
 #define LIMN_CHUNK_SIDES LIMN_FORMAT_KIND('S', 'I', 'D', 'E')
+
+/// In files with normals, where there are sides: uint32_t[patch_count][corners], as
+/// limn_mesh.corner_normals.
 #define LIMN_CHUNK_CORNERS LIMN_FORMAT_KIND('C', 'O', 'R', 'N')
 
 /// Of a channel: limn_file_channel.
 #define LIMN_CHUNK_CHANNEL LIMN_FORMAT_KIND('C', 'H', 'N', 'L')
 
-/// Characters: what moves and colours meshes. None of these chunks is required. In the file: texts,
-/// zero-terminated, one behind the other; limn_file_joint[], limn_file_clip[], limn_file_track[],
-/// float[]; limn_file_material[], limn_file_image[], and the bytes of images.
-#define LIMN_CHUNK_STRINGS LIMN_FORMAT_KIND('S', 'T', 'R', 'S')
-#define LIMN_CHUNK_SKELETON LIMN_FORMAT_KIND('S', 'K', 'E', 'L')
-#define LIMN_CHUNK_CLIPS LIMN_FORMAT_KIND('C', 'L', 'I', 'P')
-#define LIMN_CHUNK_TRACKS LIMN_FORMAT_KIND('T', 'R', 'A', 'K')
-#define LIMN_CHUNK_KEYS LIMN_FORMAT_KIND('K', 'E', 'Y', 'S')
-#define LIMN_CHUNK_MATERIALS LIMN_FORMAT_KIND('M', 'A', 'T', 'L')
-#define LIMN_CHUNK_IMAGES LIMN_FORMAT_KIND('I', 'M', 'A', 'G')
-#define LIMN_CHUNK_IMAGE_BYTES LIMN_FORMAT_KIND('I', 'D', 'A', 'T')
+// Characters: what moves and colours meshes. None of these chunks is required. First those of the
+// file.
 
-/// In a mesh: uint16_t[] and float[control_count][influence_count]; limn_file_target[],
-/// uint32_t[target_count + 1], uint32_t[] and float[][3]; limn_file_range[].
-#define LIMN_CHUNK_JOINTS LIMN_FORMAT_KIND('J', 'O', 'I', 'N')
-#define LIMN_CHUNK_INFLUENCES LIMN_FORMAT_KIND('I', 'N', 'F', 'L')
-#define LIMN_CHUNK_TARGETS LIMN_FORMAT_KIND('M', 'T', 'G', 'T')
-#define LIMN_CHUNK_TARGET_FIRST LIMN_FORMAT_KIND('M', 'F', 'S', 'T')
-#define LIMN_CHUNK_TARGET_POINTS LIMN_FORMAT_KIND('M', 'P', 'N', 'T')
-#define LIMN_CHUNK_TARGET_DELTAS LIMN_FORMAT_KIND('M', 'D', 'E', 'L')
-#define LIMN_CHUNK_RANGES LIMN_FORMAT_KIND('M', 'A', 'T', 'R')
+/// Names, zero-terminated, one behind the other.
+#define LIMN_CHUNK_STRINGS LIMN_FORMAT_KIND('S', 'T', 'R', 'S')
+
+#define LIMN_CHUNK_SKELETON LIMN_FORMAT_KIND('S', 'K', 'E', 'L')    ///< limn_file_joint[]
+#define LIMN_CHUNK_CLIPS LIMN_FORMAT_KIND('C', 'L', 'I', 'P')       ///< limn_file_clip[]
+#define LIMN_CHUNK_TRACKS LIMN_FORMAT_KIND('T', 'R', 'A', 'K')      ///< limn_file_track[]
+#define LIMN_CHUNK_KEYS LIMN_FORMAT_KIND('K', 'E', 'Y', 'S')        ///< float[]
+#define LIMN_CHUNK_MATERIALS LIMN_FORMAT_KIND('M', 'A', 'T', 'L')   ///< limn_file_material[]
+#define LIMN_CHUNK_IMAGES LIMN_FORMAT_KIND('I', 'M', 'A', 'G')      ///< limn_file_image[]
+#define LIMN_CHUNK_IMAGE_BYTES LIMN_FORMAT_KIND('I', 'D', 'A', 'T') ///< the bytes of images
+
+// Those of a mesh.
+
+#define LIMN_CHUNK_JOINTS                                                                          \
+    LIMN_FORMAT_KIND('J', 'O', 'I', 'N') ///< uint16_t[control_count][influence_count]
+#define LIMN_CHUNK_INFLUENCES                                                                      \
+    LIMN_FORMAT_KIND('I', 'N', 'F', 'L') ///< float[control_count][influence_count]: weights
+#define LIMN_CHUNK_TARGETS LIMN_FORMAT_KIND('M', 'T', 'G', 'T')      ///< limn_file_target[]
+#define LIMN_CHUNK_TARGET_FIRST LIMN_FORMAT_KIND('M', 'F', 'S', 'T') ///< uint32_t[target_count + 1]
+#define LIMN_CHUNK_TARGET_POINTS LIMN_FORMAT_KIND('M', 'P', 'N', 'T') ///< uint32_t[]
+#define LIMN_CHUNK_TARGET_DELTAS LIMN_FORMAT_KIND('M', 'D', 'E', 'L') ///< float[][3]
+#define LIMN_CHUNK_RANGES LIMN_FORMAT_KIND('M', 'A', 'T', 'R')        ///< limn_file_range[]
 
 /// Bit of limn_file_chunk.flags: a reader that does not know this chunk must refuse the file.
 #define LIMN_CHUNK_REQUIRED 1u
 
+/// What a file begins with.
 typedef struct limn_file_header {
     char magic[4];     ///< "LIMN"
     uint32_t version;  ///< LIMN_FORMAT_VERSION
@@ -137,6 +161,7 @@ typedef struct limn_file_header {
     uint32_t reserved[6];   ///< zero
 } limn_file_header;
 
+/// An entry of the directory.
 typedef struct limn_file_chunk {
     uint32_t kind;  ///< LIMN_CHUNK_…
     uint32_t mesh;  ///< index of the mesh, or LIMN_FORMAT_NO_MESH
@@ -151,14 +176,19 @@ static inline uint64_t limn_file_chunk_key(uint32_t mesh, uint32_t kind) {
     return (uint64_t)(uint32_t)(mesh + 1) << 32 | kind;
 }
 
+// -------------------------------------------------------------------------------------------------
+// Classes and normals in a file
+
 /// The limn_domain_kind of quads.
 #define LIMN_FORMAT_QUAD 1u
 
-/// What a class's `depth` is: of a table for all levels; or of its four pieces, the faces that a
-/// level of subdivision makes of a base face, where the mesh is isolated.
+/// What a class's `depth` is that has a table for all levels.
 #define LIMN_FORMAT_DEPTH 4u
+
+/// What it is of a class that is made of pieces, the faces that a level of subdivision makes of a
+/// base face, where the mesh is isolated.
 #define LIMN_FORMAT_PIECE_DEPTH 3u
-#define LIMN_FORMAT_PIECE_COUNT 4u
+#define LIMN_FORMAT_PIECE_COUNT 4u ///< of these faces
 
 /// One topology class: a table of `control_count` columns, each with one coefficient per row of the
 /// domain; or where the class is its own mirror image, per pair of rows (docs/format.md).
@@ -229,6 +259,7 @@ static inline uint64_t limn_file_columns_size(const limn_file_class *file_class)
     return LIMN_FORMAT_PIECE_COUNT * (1 + (uint64_t)file_class->control_count);
 }
 
+/// Rows of a column of a piece, with padding.
 static inline uint32_t limn_file_piece_stride(const limn_file_piece *piece) {
     if (piece->domain == LIMN_FORMAT_QUAD) return 80;
     return piece->kind ? 48 : 40;
@@ -244,6 +275,10 @@ static inline uint32_t limn_file_slot_size(const limn_file_class *file_class) {
     return file_class->control_count <= LIMN_FORMAT_NARROW_SLOTS ? 1 : 2;
 }
 
+// -------------------------------------------------------------------------------------------------
+// Meshes in a file
+
+/// A mesh: what its chunks hold how much of.
 typedef struct limn_file_mesh {
     uint32_t control_count;
     uint32_t patch_count;
@@ -285,6 +320,9 @@ typedef struct limn_file_run {
     uint64_t first_slot;  ///< into the slots chunk, in bytes; even where slots are two bytes wide
 } limn_file_run;
 
+// -------------------------------------------------------------------------------------------------
+// Animation and materials in a file
+
 /// For a joint without a parent, a material without an image, and patches without a material.
 #define LIMN_FORMAT_NONE 0xffffffffu
 
@@ -307,15 +345,14 @@ typedef struct limn_file_clip {
     float duration; ///< seconds
 } limn_file_clip;
 
-/// What tracks move.
-#define LIMN_FORMAT_TRANSLATION 0u
-#define LIMN_FORMAT_ROTATION 1u
-#define LIMN_FORMAT_SCALE 2u
-#define LIMN_FORMAT_TARGET_WEIGHTS 3u
+#define LIMN_FORMAT_TRANSLATION 0u    ///< what a track moves: where a joint is
+#define LIMN_FORMAT_ROTATION 1u       ///< how it is turned
+#define LIMN_FORMAT_SCALE 2u          ///< how large it is
+#define LIMN_FORMAT_TARGET_WEIGHTS 3u ///< the weights of the morph targets of a mesh
 
-#define LIMN_FORMAT_STEP 0u
-#define LIMN_FORMAT_LINEAR 1u
-#define LIMN_FORMAT_CUBIC 2u
+#define LIMN_FORMAT_STEP 0u   ///< between keys: the value of the one before
+#define LIMN_FORMAT_LINEAR 1u ///< from one to the other, rotations on the sphere
+#define LIMN_FORMAT_CUBIC 2u  ///< by a Hermite spline
 
 /// In the keys, behind those of the track before: key_count times, which ascend; and for each a
 /// value of `width` floats, or of cubic ones three: a tangent, the value, and a tangent.
@@ -334,6 +371,7 @@ static inline uint64_t limn_file_track_key(const limn_file_track *track) {
     return (uint64_t)of_mesh << 34 | (uint64_t)track->target << 2 | track->path;
 }
 
+/// See limn_material.
 typedef struct limn_file_material {
     uint32_t name;
     uint32_t image;           ///< or LIMN_FORMAT_NONE
@@ -342,12 +380,14 @@ typedef struct limn_file_material {
     float base_colour[4]; ///< linear, with alpha
 } limn_file_material;
 
+/// The image of a material.
 typedef struct limn_file_image {
     uint32_t name;
     uint32_t reserved;
     uint64_t offset, size; ///< in the bytes of images; size 0: it is not in the file
 } limn_file_image;
 
+/// A morph target.
 typedef struct limn_file_target {
     uint32_t name;
     float weight; ///< at rest

@@ -35,9 +35,10 @@
 extern "C" {
 #endif
 
+/// Version of these headers.
 #define LIMN_VERSION_MAJOR 0
-#define LIMN_VERSION_MINOR 1
-#define LIMN_VERSION_PATCH 0
+#define LIMN_VERSION_MINOR 1 ///< see LIMN_VERSION_MAJOR
+#define LIMN_VERSION_PATCH 0 ///< see LIMN_VERSION_MAJOR
 
 /// Version of the library that is linked: major << 16 | minor << 8 | patch.
 uint32_t limn_version(void);
@@ -91,6 +92,7 @@ uint32_t limn_version(void);
       "a light is of an unknown kind or not finite, its direction is no unit vector, or its "      \
       "attenuation, range or cone is negative or turned around")
 
+/// Why something was refused: one of LIMN_RESULTS.
 typedef enum limn_result {
 #define LIMN_RESULT_NAME(name, text) name,
     LIMN_RESULTS(LIMN_RESULT_NAME)
@@ -104,10 +106,11 @@ const char *limn_result_text(limn_result result);
 // Domains
 
 #define LIMN_LEVEL_COUNT 5 ///< levels 0 to 4
-#define LIMN_LEVEL_MAX 4
-#define LIMN_CORNER_MAX 4 ///< corners of any domain
-#define LIMN_GRID_SIZE 16 ///< grid steps along a patch edge at LIMN_LEVEL_MAX
+#define LIMN_LEVEL_MAX 4   ///< the finest
+#define LIMN_CORNER_MAX 4  ///< corners of any domain
+#define LIMN_GRID_SIZE 16  ///< grid steps along a patch edge at LIMN_LEVEL_MAX
 
+/// What a patch is, and where in it a row (i, j) is.
 typedef enum limn_domain_kind {
     LIMN_DOMAIN_TRIANGLE, ///< v0 + i/16 (v1 - v0) + j/16 (v2 - v0), i + j <= 16
     LIMN_DOMAIN_QUAD,     ///< with u = i/16, v = j/16: (1 - u) (1 - v) v0 + u (1 - v) v1 + u v v2 +
@@ -153,6 +156,7 @@ const limn_domain *limn_domain_get(limn_domain_kind kind);
 // is a template for every level of a patch and of each of its edges, whatever the difference.
 // Templates depend on the domain only; upload them once.
 
+/// How triangles are listed.
 typedef enum limn_topology {
     LIMN_TOPOLOGY_TRIANGLES,
     LIMN_TOPOLOGY_STRIPS ///< triangle strips, with LIMN_RESTART between them
@@ -231,6 +235,7 @@ const limn_kernels *limn_kernels_select(uint32_t isa_mask, limn_family family);
 
 /// "scalar", "sse2", "avx2" or "neon".
 const char *limn_kernels_name(const limn_kernels *kernels);
+/// The family of kernels: the reproducible one also where a fast one was asked for and there is none.
 limn_family limn_kernels_family(const limn_kernels *kernels);
 
 // -------------------------------------------------------------------------------------------------
@@ -352,7 +357,7 @@ void limn_mesh_corners(const limn_mesh *mesh, uint32_t patch_index,
 // after them. The same input gives the same bits with every kernel of either family, so control
 // points with the same data, such as those of sheets, stay together in every bit.
 
-#define LIMN_INFLUENCE_MAX 8
+#define LIMN_INFLUENCE_MAX 8 ///< joints that move one point
 
 /// Which joints move the points of a mesh, and how much. The caller's, wherever it comes from:
 /// limn_skin_check() tells whether it is right, and nothing later does. An influence that is not
@@ -411,17 +416,17 @@ void limn_dual_quaternions_make(const float *matrices, uint32_t joint_count,
 /// A skin in one frame. Matrices take points from the bind pose to where they are now: for each
 /// joint, where it is times the inverse of where it is in the bind pose. They are the caller's: one
 /// that is not finite makes all points that name its joint not finite, and no others.
-///
-/// matrices          rows: x' = m[0][0] x + m[0][1] y + m[0][2] z + m[0][3]. Linear blending: each
-///                   point is moved by the weighted sum of the matrices
-/// dual_quaternions  each point is stretched by the weighted sum of the stretches, then turned and
-///                   moved by that of the dual quaternions, made a unit one; each with the sign
-///                   that brings it closest to that of the first influence. So bodies keep their
-///                   volume where they twist
 typedef struct limn_pose {
     const limn_skin *skin;
-    const float *matrices; ///< [joint_count][3][4]; not read where there are dual quaternions
-    const limn_dual_quaternion *dual_quaternions; ///< [joint_count]; NULL: linear blending
+    /// [joint_count][3][4] rows: x' = m[0][0] x + m[0][1] y + m[0][2] z + m[0][3]. Linear blending:
+    /// each point is moved by the weighted sum of the matrices. Not read where there are dual
+    /// quaternions.
+    const float *matrices;
+    /// [joint_count], or NULL: linear blending. Each point is stretched by the weighted sum of the
+    /// stretches, then turned and moved by that of the dual quaternions, made a unit one; each with
+    /// the sign that brings it closest to that of the first influence. So bodies keep their volume
+    /// where they twist.
+    const limn_dual_quaternion *dual_quaternions;
 } limn_pose;
 
 /// Moves points [begin, end). Does not allocate, never fails; any number of threads may take
@@ -494,10 +499,11 @@ void limn_morph_points(const limn_morph_targets *targets, const float *weights, 
 // is subdivided: a colour for each vertex, to multiply with that of the material. Positions and
 // directions are in the space of the control points, colours linear.
 
+/// What a light is.
 typedef enum limn_light_kind {
     LIMN_LIGHT_DIRECTIONAL, ///< from so far away that it is the same everywhere
-    LIMN_LIGHT_POINT,
-    LIMN_LIGHT_SPOT
+    LIMN_LIGHT_POINT,       ///< from a point, in all directions
+    LIMN_LIGHT_SPOT         ///< from a point, into a cone
 } limn_light_kind;
 
 /// One light. What it gives is max(0, n . w) for a unit normal n and the way w to it, times its
@@ -555,7 +561,7 @@ typedef struct limn_plan_patch {
     uint8_t edge_levels[LIMN_CORNER_MAX]; ///< n, by edges of the patch
     uint8_t reserved;                     ///< 0
     float edge_morphs[LIMN_CORNER_MAX];   ///< weights
-    float morph;
+    float morph;                          ///< weight of the patch
 } limn_plan_patch;
 
 /// A draw, as glMultiDrawElementsIndirect() reads it.
@@ -593,7 +599,7 @@ typedef struct limn_view {
     float planes[6][4];   ///< a point p is inside where p x + q y + r z + s >= 0 for all
 } limn_view;
 
-#define LIMN_VIEW_MAX 4
+#define LIMN_VIEW_MAX 4 ///< views of one plan
 
 /// A view from `eye` towards `target`.
 ///
@@ -601,8 +607,7 @@ typedef struct limn_view {
 /// up            any direction that is not the line of sight
 /// fov           vertical angle of view in radians, between 0 and pi
 /// width,height  of the viewport in pixels
-/// near_plane,
-/// far_plane     distances of the planes that bound it, 0 < near_plane < far_plane
+/// near_plane    distances of the planes that bound what is seen, 0 < near_plane < far_plane
 limn_view limn_view_perspective(const float eye[3], const float target[3], const float up[3],
                                 float fov, float width, float height, float near_plane,
                                 float far_plane);
@@ -623,6 +628,7 @@ typedef enum limn_lod {
                       ///< more than LIMN_LEVEL_MAX gets that
 } limn_lod;
 
+/// How the levels of a frame are chosen. Zero means default, everywhere.
 typedef struct limn_lod_desc {
     limn_lod lod;
     float level;  ///< LIMN_LOD_UNIFORM: a real number
