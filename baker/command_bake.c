@@ -13,15 +13,16 @@
 #include <unistd.h>
 
 static const char help[] =
-    "usage: limn bake IN... -o OUT.limn [OPTIONS]\n\n"
+    "Usage: limn bake IN... -o OUT.limn [OPTIONS]\n\n"
     "Bakes one or more meshes (.obj, .off, .ply, .gltf, .glb) into one .limn file. The meshes "
     "share\n"
     "their stencil tables. Of glTF all meshes of the scene are baked, with skeleton, morph "
     "targets,\n"
-    "clips and materials.\n"
+    "clips and materials.\n\n"
     "Loop's scheme and the butterfly cut polygons into triangles, quads along the shorter "
     "diagonal;\n"
     "catmark and none take them as they are. Nothing is written unless all is well.\n\n"
+    "Options:\n"
     "  -o, --output FILE     the file to write\n"
     "      --scheme NAME     loop (default), of triangles: other polygons are cut; catmark:\n"
     "                        Catmull-Clark, of any polygons; butterfly: the modified butterfly, "
@@ -61,10 +62,9 @@ static const char help[] =
     "      --images          store the images of materials, not only their names\n"
     "      --repair[=STEPS]  mend what would be refused, and say so; STEPS of, separated by "
     "commas:\n"
-    "                        weld   merge control points whose positions are equal, and equal\n"
-    "                               texture coordinates\n"
-    "                        drop   drop degenerate and repeated faces\n"
-    "                        all    both, in this order (default)\n"
+    "                        weld: merge control points whose positions are equal, and equal\n"
+    "                        texture coordinates; drop: drop degenerate and repeated faces;\n"
+    "                        all (default): both, in this order\n"
     "      --non-manifold NAME  edges that more than two faces share or whose faces are wound\n"
     "                        inconsistently, and vertices whose faces are not one chain: refuse\n"
     "                        (default), or split: as in OpenSubdiv, these edges are sharp and "
@@ -73,7 +73,8 @@ static const char help[] =
     "      --c-array NAME    write C source instead of a .limn file: an array NAME of its bytes\n"
     "  -q, --quiet           only errors\n"
     "  -h, --help            this text\n\n"
-    "example: limn bake body.obj head.obj -o hero.limn --weights warren\n";
+    "Examples:\n"
+    "  $ limn bake body.obj head.obj -o hero.limn --weights warren\n";
 
 typedef struct arguments {
     limn_bake_desc desc;

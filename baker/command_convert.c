@@ -8,12 +8,15 @@
 #include <string.h>
 
 static const char help[] =
-    "usage: limn convert IN OUT [OPTIONS]\n\n"
+    "Usage: limn convert IN OUT [OPTIONS]\n\n"
     "Writes a control mesh in another format: .obj, .off or .ply, as OUT ends. Floats stay the "
     "same\n"
     "to the last bit. OBJ has polygons and OpenSubdiv's tags; OFF and PLY have polygons alone, "
     "and\n"
     "the tags are lost, with a note.\n\n"
+    "IN is .obj, .off, .ply, .gltf or .glb. glTF must have one mesh. An .obj that begins with\n"
+    "#SubdivisionSurfL is Lomont's.\n\n"
+    "Options:\n"
     "  -f, --format NAME     obj, off, ply or lomont, whatever OUT ends with. lomont is Lomont's\n"
     "                        extended OBJ (#SubdivisionSurfL 0.1): triangles, half-edges and\n"
     "                        sharpness. Polygons are cut into triangles, and what his format has "
@@ -24,9 +27,8 @@ static const char help[] =
     "                        mind\n"
     "  -q, --quiet           only errors\n"
     "  -h, --help            this text\n\n"
-    "IN is .obj, .off, .ply, .gltf or .glb. glTF must have one mesh. An .obj that begins with "
-    "#SubdivisionSurfL is Lomont's.\n\n"
-    "example: limn convert hero.obj hero_lomont.obj --format lomont\n";
+    "Examples:\n"
+    "  $ limn convert hero.obj hero_lomont.obj --format lomont\n";
 
 typedef enum mesh_format {
     FORMAT_UNKNOWN,

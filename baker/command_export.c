@@ -9,9 +9,14 @@
 #include <string.h>
 
 static const char help[] =
-    "usage: limn export FILE.limn --level L|--eye X,Y,Z -o OUT.obj|OUT.ply [OPTIONS]\n\n"
+    "Usage: limn export FILE.limn --level L|--eye X,Y,Z -o OUT.obj|OUT.ply [OPTIONS]\n\n"
     "Writes the triangles that a frame draws: everything at one level, or with levels of detail\n"
-    "for an eye; at rest, or in a moment of a clip.\n\n"
+    "for an eye; at rest, or in a moment of a clip. All meshes of the file are written: as "
+    "objects\n"
+    "in OBJ, one after the other in PLY. Of a closed mesh that is not culled, --weld makes a "
+    "closed\n"
+    "surface.\n\n"
+    "Options:\n"
     "  -o, --output FILE       .obj (text) or .ply (binary)\n"
     "  -l, --level L           0 (of a triangle 3 vertices and 1 triangle, of a quad 4 and 2) to\n"
     "                          4 (153 and 256, 289 and 512); between whole numbers, the next "
@@ -20,9 +25,9 @@ static const char help[] =
     "      --weld              merge the vertices that neighbouring patches share, only where\n"
     "                          all bits of their positions are equal; otherwise every patch has\n"
     "                          its own\n"
-    "  -h, --help              this text\n\n" LIMNI_FRAME_HELP
-    "\nAll meshes of the file are written: as objects in OBJ, one after the other in PLY. Of a\n"
-    "closed mesh that is not culled, --weld makes a closed surface.\n";
+    "  -h, --help              this text\n\n" LIMNI_FRAME_HELP "\nExamples:\n"
+    "  $ limn export hero.limn --level 4 --weld -o hero.obj\n"
+    "  $ limn export hero.limn --eye 0,1,3 --tolerance 8 --weld -o frame.obj\n";
 
 typedef struct arguments {
     const char *input, *output;

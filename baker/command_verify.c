@@ -14,7 +14,7 @@
 static const double default_tolerance = 3e-7, channel_tolerance = 1e-6;
 
 static const char help[] =
-    "usage: limn verify FILE.limn --against IN.obj [OPTIONS]\n\n"
+    "Usage: limn verify FILE.limn --against IN.obj [OPTIONS]\n\n"
     "Evaluates a mesh at level 4 and compares every vertex with OpenSubdiv's limit position, in "
     "double\n"
     "precision. Prints the largest and the mean difference relative to the diagonal of the "
@@ -27,14 +27,17 @@ static const char help[] =
     "no butterfly, no Warren's weights, none of Lomont's rules, and nothing like --scheme none "
     "for\n"
     "meshes of triangles.\n\n"
+    "Options:\n"
     "      --against FILE   the mesh (.obj, .off, .ply, .gltf, .glb) that was baked\n"
     "      --mesh N         which mesh of the file, from 0 (default 0)\n"
-    "      --repair[=STEPS] as for limn bake, if the mesh was repaired then\n"
+    "      --repair[=STEPS]  as for limn bake, if the mesh was repaired then\n"
     "      --non-manifold NAME  likewise\n"
     "      --tolerance X    fail when the largest difference is above X (default: 3e-7, and what\n"
     "                       rounding coordinates to floats adds far from the origin; of texture\n"
     "                       coordinates 1e-6 of their extent)\n"
-    "  -h, --help           this text\n";
+    "  -h, --help           this text\n\n"
+    "Examples:\n"
+    "  $ limn verify hero.limn --against hero.obj\n";
 
 typedef struct arguments {
     const char *input, *against;

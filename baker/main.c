@@ -20,17 +20,21 @@ static const struct {
 enum { COMMAND_COUNT = sizeof commands / sizeof *commands };
 
 static void print_help(FILE *stream) {
-    fprintf(stream, "Limn bakes subdivision surfaces for the Limn runtime.\n\n"
-                    "usage: limn COMMAND [OPTIONS]\n"
-                    "       limn COMMAND --help\n"
-                    "       limn --help | --version\n\ncommands:\n");
+    fprintf(stream, "Usage: limn COMMAND [OPTIONS]\n"
+                    "  or:  limn COMMAND --help\n"
+                    "  or:  limn --help | --version\n\n"
+                    "Bakes subdivision surfaces for the Limn runtime.\n\n"
+                    "Commands:\n");
     for (int c = 0; c < COMMAND_COUNT; c++)
         fprintf(stream, "  %-8s %s\n", commands[c].name, commands[c].summary);
-    fprintf(stream, "\nexample:\n"
-                    "  limn bake hero.obj -o hero.limn\n"
-                    "  limn info hero.limn\n"
-                    "  limn export hero.limn --level 3 -o dense.obj\n\n"
-                    "exit status: 0 success, 1 bad input or a file error, 2 wrong usage\n");
+    fprintf(stream, "\nExit status:\n"
+                    "  0        success\n"
+                    "  1        bad input or a file error\n"
+                    "  2        wrong usage\n\n"
+                    "Examples:\n"
+                    "  $ limn bake hero.obj -o hero.limn\n"
+                    "  $ limn info hero.limn\n"
+                    "  $ limn export hero.limn --level 3 -o dense.obj\n");
 }
 
 static bool is_either(const char *text, const char *a, const char *b) {

@@ -23,7 +23,7 @@
 #include <unistd.h>
 
 static const char help[] =
-    "usage: limn-bench bake [--grid N] [MESH...]\n\n"
+    "Usage: limn-bench bake [--grid N] [MESH...]\n\n"
     "Bakes a grid of about a million faces and every MESH (.obj, .off), each three times in a "
     "process\n"
     "of its own, and prints medians: seconds from file to blob, peak memory, bytes per face of "
@@ -31,6 +31,7 @@ static const char help[] =
     "records and indices, with the stencil tables, and of OpenSubdiv's limit stencils for level 4 "
     "(one\n"
     "per distinct vertex, positions only; 0: built without OpenSubdiv, or the grid).\n\n"
+    "Options:\n"
     "  --grid N   squares along an edge of the grid (default 707: 999,698 faces); 0: no grid\n";
 
 enum { RUNS = 3, GRID_MAX = 6000 }; // squares: some 3 GiB of positions and indices

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 
 static const char help[] =
-    "usage: limn-bench dolly [OPTIONS] MESH\n\n"
+    "Usage: limn-bench dolly [OPTIONS] MESH\n\n"
     "Moves a camera towards the middle of MESH (.obj, .off or .limn), and from frame to frame\n"
     "compares the surface that is drawn, at the parameters of all rows of level 4. Prints CSV to\n"
     "standard output; lengths in pixels of a picture 720 pixels high, with a field of view of\n"
@@ -27,11 +27,12 @@ static const char help[] =
     "  seams            the largest movement of points of patches of which an edge comes to\n"
     "                   level 0 or from there\n"
     "  no_morph         the largest movement of all points when morphing is off\n\n"
-    "  --lod NAME       how levels are chosen: length (default) or another of limn-bench plan\n"
-    "  --pixels N       tolerance (default 8)\n"
-    "  --min-level N    of all edges (default 0)\n"
-    "  --from D, --to D distances of the first and the last frame (default 16 and 1)\n"
-    "  --frames N       (default 600) steps are equal shares of the distance\n";
+    "Options:\n"
+    "  --lod NAME        how levels are chosen: length (default) or another of limn-bench plan\n"
+    "  --pixels N        tolerance (default 8)\n"
+    "  --min-level N     of all edges (default 0)\n"
+    "  --from D, --to D  distances of the first and the last frame (default 16 and 1)\n"
+    "  --frames N        (default 600) steps are equal shares of the distance\n";
 
 typedef struct options {
     limn_lod_desc desc;

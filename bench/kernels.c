@@ -18,7 +18,7 @@
 #include <string.h>
 
 static const char help[] =
-    "usage: limn-bench kernels [OPTIONS] [MESH...]\n\n"
+    "Usage: limn-bench kernels [OPTIONS] [MESH...]\n\n"
     "Evaluates a regular torus, the same torus with edges flipped at random (\"worst\":\n"
     "neighbours rarely share a class) and every MESH (.obj, .off: baked first; .limn: its\n"
     "first mesh), all variants and outputs in turn, and prints medians:\n\n"
@@ -44,6 +44,7 @@ static const char help[] =
     "  streaming        12: floats, past the caches; the stores beside are not\n\n"
     "All but the first two are measured only by class and warm. A .limn file without normals has\n"
     "only outputs without.\n\n"
+    "Options:\n"
     "  --isa LIST     scalar,sse2,avx2,neon: only these\n"
     "  --output LIST  only these outputs\n"
     "  --all          all outputs shuffled and cold too\n"

@@ -7,13 +7,14 @@
 #include <stdlib.h>
 
 static const char help[] =
-    "usage: limn-bench light [OPTIONS] [MESH]...\n\n"
+    "Usage: limn-bench light [OPTIONS] [MESH]...\n\n"
     "Evaluates all faces of a mesh, one by one into the same memory, with light and without, at\n"
     "levels 4, 2 and 0: meshes to bake or .limn files with normals, or without any a torus of\n"
     "valence 6. Each figure is the median of --rounds samples, and each share the median of the\n"
     "shares in them.\n\n"
     "  ns           per vertex, of position and colour, 16 bytes\n"
     "  / positions  of the time for positions alone\n\n"
+    "Options:\n"
     "  --isa NAME     scalar, sse2, avx2 or neon (default: the best)\n"
     "  --rounds N     samples of each figure (default 15)\n"
     "  --quick        3 rounds of short samples\n"

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The program `limn-bench`: arguments and exit codes only. */
 #include "bench.h"
+#include "limn/limn.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -30,16 +31,26 @@ static const struct {
 enum { BENCH_COUNT = sizeof benches / sizeof *benches };
 
 static int print_help(FILE *stream, int status) {
-    fprintf(stream,
-            "usage: limn-bench NAME [OPTIONS]\n       limn-bench NAME --help\n\nbenchmarks:\n");
+    fprintf(stream, "Usage: limn-bench NAME [OPTIONS]\n"
+                    "  or:  limn-bench NAME --help\n"
+                    "  or:  limn-bench --help | --version\n\n"
+                    "Measures Limn, and what does the same.\n\n"
+                    "Benchmarks:\n");
     for (int b = 0; b < BENCH_COUNT; b++)
         fprintf(stream, "  %-10s %s\n", benches[b].name, benches[b].summary);
     return status;
 }
 
+static int print_version(void) {
+    const uint32_t version = limn_version();
+    printf("limn-bench %u.%u.%u\n", version >> 16, version >> 8 & 255, version & 255);
+    return 0;
+}
+
 int main(int argc, char **argv) {
     if (argc < 2) return print_help(stderr, 2);
     if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) return print_help(stdout, 0);
+    if (strcmp(argv[1], "--version") == 0) return print_version();
     for (int b = 0; b < BENCH_COUNT; b++) {
         if (strcmp(argv[1], benches[b].name) == 0) return benches[b].run(argc - 1, argv + 1);
     }

@@ -16,13 +16,23 @@
 #include <unistd.h>
 
 static const char help[] =
-    "usage: limn-bench peers [OPTIONS] MESH...\n\n"
+    "Usage: limn-bench peers [OPTIONS] MESH...\n\n"
     "Computes the same points of every MESH (.obj, .off) with Limn, with OpenSubdiv's limit "
     "stencils and\n"
     "its Bfr surfaces, with Embree's rtcInterpolateN() (Catmull-Clark only), with plain recursive\n"
     "subdivision, and by skinning the refined mesh itself.\n"
     "Everything that does not depend on the frame is prepared beforehand. All must give the same "
     "points.\n\n"
+    "With catmark, a patch is a face; where any face is not a quad, one for each corner of each "
+    "face, and\n"
+    "figures per face are still those of the faces of MESH. Embree's points are of the limit "
+    "surface. It\n"
+    "refines near extraordinary vertices for itself and keeps what it derives from the control "
+    "points of a\n"
+    "face in a cache, which each frame empties by committing the geometry, as points have moved. "
+    "It\n"
+    "is left out where a boundary has a vertex of a single face, which it rounds otherwise.\n\n"
+    "Options:\n"
     "  --scheme S    loop: polygons are cut into triangles (default); catmark: Catmull-Clark, of "
     "polygons\n"
     "                as they are\n"
@@ -32,16 +42,7 @@ static const char help[] =
     "  --threads N   for the rows with threads; 1: no such rows (default: one per processor, 8 at "
     "most)\n"
     "  --json FILE   results and conditions as JSON\n"
-    "  --csv FILE    the same as CSV\n\n"
-    "With catmark, a patch is a face; where any face is not a quad, one for each corner of each "
-    "face, and\n"
-    "figures per face are still those of the faces of MESH. Embree's points are of the limit "
-    "surface. It\n"
-    "refines near extraordinary vertices for itself and keeps what it derives from the control "
-    "points of a\n"
-    "face in a cache, which each frame empties by committing the geometry, as points have moved. "
-    "It\n"
-    "is left out where a boundary has a vertex of a single face, which it rounds otherwise.\n";
+    "  --csv FILE    the same as CSV\n";
 
 /// Of the diagonal. Float stencils and Bfr stay well below.
 #define DIFFERENCE_MAX 1e-4

@@ -18,7 +18,7 @@
 #include <string.h>
 
 static const char help[] =
-    "usage: limn-bench plan [OPTIONS] [MESH...]\n\n"
+    "Usage: limn-bench plan [OPTIONS] [MESH...]\n\n"
     "Plans and evaluates frames of every MESH (.obj, .off: baked first; .limn: its first mesh), "
     "or\n"
     "of a regular torus of 8,192 faces, and prints medians:\n\n"
@@ -36,6 +36,7 @@ static const char help[] =
     "Vertices go to a small buffer that is used again and again, as a mapped ring buffer would\n"
     "be; each thread has its own. Draws are not made.\n\n"
     "Then two threads beside one: each takes every other buffer-full of patches.\n\n"
+    "Options:\n"
     "  --pixels N     tolerance of levels (default 4)\n"
     "  --fast         kernels with fused multiply-add\n"
     "  --threads N    instead of 2\n"

@@ -9,7 +9,7 @@
 #include <string.h>
 
 static const char help[] =
-    "usage: limn-bench skin [OPTIONS] [MESH...]\n\n"
+    "Usage: limn-bench skin [OPTIONS] [MESH...]\n\n"
     "Moves the control points of every MESH (.obj, .off, .ply: baked first; .limn: its first "
     "mesh),\n"
     "or of a regular torus of 8,192 faces, and prints for each step of a frame the median\n\n"
@@ -17,6 +17,7 @@ static const char help[] =
     "  / level 4   of the time to evaluate positions and normals of all faces at level 4\n\n"
     "60 joints; those of a control point are near in the list of joints, as they are in a body.\n"
     "Targets move a tenth of the control points each.\n\n"
+    "Options:\n"
     "  --isa NAME     scalar, sse2, avx2 or neon (default: the best)\n"
     "  --rounds N     samples of each figure (default 15)\n"
     "  --quick        3 rounds of short samples\n"

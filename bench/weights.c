@@ -17,7 +17,7 @@
 enum { ROWS = 153, VALENCE_MAX = 24 };
 
 static const char help[] =
-    "usage: limn-bench weights MESH...\n\n"
+    "Usage: limn-bench weights MESH...\n\n"
     "Bakes each mesh with Loop's and with Warren's weights. Prints how far vertices at the same "
     "place\n"
     "of the surface are apart, of the diagonal; the integral of the squared mean curvature, which "

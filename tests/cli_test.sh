@@ -126,11 +126,11 @@ for command in bake convert info export verify; do
     "$limn" $command --help >stdout.txt 2>stderr.txt
     expect "$command --help" $? 0
     last="$command --help"
-    says stdout "^usage: limn $command "
+    says stdout "^Usage: limn $command "
     says stdout --help
     "$limn" $command -h | cmp -s - stdout.txt || fail "$command -h differs from --help"
 done
-refuses 2 '^usage: '
+refuses 2 '^Usage: '
 refuses 2 "no command 'frob'" frob
 refuses 2 "no command '--frob'" --frob
 refuses 2 "no command ''" ''

@@ -15,14 +15,26 @@
 
 enum { STATUS_OK = 0, STATUS_FAILED = 1, STATUS_USAGE = 2 };
 
-static const char options_help[] =
-    "Usage: limn-view FILE [OPTION]...\n"
-    "       limn-view FILE --png OUT.png [OPTION]...\n"
+static const char description_help[] =
+    "Usage: limn-view FILE [OPTIONS]\n"
+    "  or:  limn-view FILE --png OUT.png [OPTIONS]\n"
+    "\n"
     "Shows the meshes of a baked .limn file, evaluated in every frame, in a window; or draws a\n"
     "PNG picture, which needs no window system. A mesh file (.obj, .off, .ply, .gltf, .glb), and\n"
     "one that is dropped into the window, is first baked, as by `limn bake --normals exact\n"
     "--isolate auto --repair --non-manifold split`.\n"
     "\n"
+    "The window begins with what the options say; its camera counts as an eye, and levels are by\n"
+    "length unless something else is said. Drag with the left button to orbit, with the right one\n"
+    "to look around, with the middle one to pan; the wheel zooms.\n"
+    "\n"
+    "Without an eye, a picture looks at the surface from the front (+Z), the right and above, and\n"
+    "frames it the same way at every level. The inside of an open surface is darker than its\n"
+    "outside. The same command writes the same bytes on one machine.\n"
+    "\n";
+
+static const char options_help[] =
+    "Options:\n"
     "      --png OUT.png       the picture to write; replaced only by a complete one\n"
     "      --level L           0 (a triangle is one, a quad two) to 4 (256, 512 triangles); "
     "between\n"
@@ -41,7 +53,7 @@ static const char options_help[] =
     "                          interpolated or exact (limn_light_mode), or base: all light at the\n"
     "                          base vertices, for comparison; default: each pixel is lit\n"
     "      --spot X,Y,Z        where the spot is, in model units; default: there is none\n"
-    "      --spot-target X,Y,Z what it shines on; default the middle of the bounds\n"
+    "      --spot-target X,Y,Z  what it shines on; default the middle of the bounds\n"
     "      --spot-cone DEG     angle from its axis to its edge, 1 to 89 degrees; default 20\n"
     "      --wireframe         draw triangles, and the borders of patches stronger\n"
     "      --control-mesh      draw the edges and points of the base mesh, faintly where hidden\n"
@@ -51,23 +63,16 @@ static const char options_help[] =
     "      --version           print the version and exit\n"
     "\n" LIMNI_FRAME_HELP;
 
-static const char keys_help[] =
-    "\n"
-    "The window begins with what the options say; its camera counts as an eye, and levels are by\n"
-    "length unless something else is said. Drag with the left button to orbit, with the right one\n"
-    "to look around, with the middle one to pan; the wheel zooms. Its keys:\n";
-
 static const char end_help[] =
     "\n"
-    "Without an eye, the camera looks at the surface from the front (+Z), the right and above,\n"
-    "and frames it the same way at every level. The inside of an open surface is darker than its\n"
-    "outside. The same command writes the same bytes on one machine.\n"
+    "Exit status:\n"
+    "  0        the picture was written, or the window closed\n"
+    "  1        the file or the machine does not allow it; nothing is written\n"
+    "  2        the command line is wrong; nothing is written\n"
     "\n"
-    "Exit status: 0 the picture was written, or the window closed; 1 the file or the machine does\n"
-    "not allow it; 2 the command line is wrong. In the last two cases nothing is written.\n"
-    "\n"
-    "Examples: limn-view fox.glb\n"
-    "          limn-view spot.limn --png spot.png --eye 0,1,3 --colour levels --wireframe\n";
+    "Examples:\n"
+    "  $ limn-view fox.glb\n"
+    "  $ limn-view spot.limn --png spot.png --eye 0,1,3 --colour levels --wireframe\n";
 
 static const char version_format[] = "limn-view %u.%u.%u\n";
 
@@ -255,10 +260,11 @@ static int print_help(void) {
         VIEW_KEYS(KEY_HELP)
 #undef KEY_HELP
     };
+    fputs(description_help, stdout);
     fputs(options_help, stdout);
-    fputs(keys_help, stdout);
+    fputs("\nKeys of the window:\n", stdout);
     for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
-        printf("      %-8s %s\n", keys[k][0], keys[k][1]);
+        printf("  %-8s %s\n", keys[k][0], keys[k][1]);
     fputs(end_help, stdout);
     return STATUS_OK;
 }

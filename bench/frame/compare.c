@@ -10,7 +10,7 @@
 #include <string.h>
 
 static const char help[] =
-    "usage: limn-bench compare [OPTIONS] A.json B.json\n\n"
+    "Usage: limn-bench compare [OPTIONS] A.json B.json\n\n"
     "Compares two results of limn-bench frame on the same scene: how much longer the frames of B\n"
     "take. Frames of the same number do the same work, so their times are compared in pairs. A "
     "way\n"
@@ -20,8 +20,12 @@ static const char help[] =
     "be\n"
     "independent. What slows a whole run down, such as other programs, looks like a slower way:\n"
     "use the median of several rounds, on a quiet machine, or --clock thread.\n\n"
-    "Exit status: 0 where nothing is slower, 1 where something is, 2 on errors.\n\n"
-    "  --threshold P  T in percent, 0 to 1000 (default 5)\n";
+    "Options:\n"
+    "  --threshold P  T in percent, 0 to 1000 (default 5)\n\n"
+    "Exit status:\n"
+    "  0              nothing is slower\n"
+    "  1              something is slower\n"
+    "  2              an error\n";
 
 enum { FRAMES_LEAST = 16 };
 

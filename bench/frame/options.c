@@ -7,7 +7,7 @@
 #include <string.h>
 
 static const char help[] =
-    "usage: limn-bench frame [OPTIONS]\n\n"
+    "Usage: limn-bench frame [OPTIONS]\n\n"
     "Makes the frames of a scene, with a camera and characters that move, and prints what each\n"
     "stage takes: p50, p95, p99 and the longest, in ms, and its share of all frames.\n\n"
     "  skin       clips, morph targets and skin: control points\n"
@@ -21,6 +21,10 @@ static const char help[] =
     "packing\n\n"
     "Light and packing are part of evaluation, which is timed three times in each frame, in\n"
     "changing order: as the scene wants it, without packing, and without light.\n\n"
+    "Peers write positions and normals as floats, without light. Who is out of view costs none of\n"
+    "them anything. Each character is made by one thread, but those of Limn.\n\n"
+    "Lengths in a scene are in diagonals of the mesh, from the middle of its bounds.\n\n"
+    "Options:\n"
     "  --scene S      FILE, or hero, crowd, worst or terrain (default crowd)\n"
     "  --mesh FILE    in place of the scene's\n"
     "  --clip NAME    in place of the scene's\n"
@@ -42,18 +46,17 @@ static const char help[] =
     "  --json FILE    all results, for limn-bench compare\n"
     "  --csv FILE     a line per frame\n"
     "  --html FILE    a page with pictures\n\n"
-    "Peers write positions and normals as floats, without light. Who is out of view costs none of\n"
-    "them anything. Each character is made by one thread, but those of Limn.\n\n"
-    "  floats         Limn, writing that\n"
+    "Peers:\n"
+    "  floats         Limn, writing what they write\n"
     "  dense          the mesh of level 4, or of the scene's level, skinned: AVX2 or SSE2, four\n"
     "                 bones a vertex\n"
     "  discrete       the meshes of levels 0 to 4 skinned: one for each character, the coarsest\n"
     "                 that keeps the tolerance at its distance\n"
-    "  opensubdiv     limit stencils of the same levels, chosen likewise; two derivatives in "
-    "place\n"
-    "                 of normals\n\n"
-    "Lines of a scene, lengths in diagonals of the mesh, from the middle of its "
-    "bounds:\n" FRAME_SCRIPT_HELP;
+    "  stencils       OpenSubdiv's limit stencils of the same levels, chosen likewise; two\n"
+    "                 derivatives in place of normals\n"
+    "  bfr            OpenSubdiv's Bfr surfaces, likewise\n\n";
+
+static const char scene_help[] = "Lines of a scene:\n" FRAME_SCRIPT_HELP;
 
 enum { FRAMES_MAX = 10000, ROUNDS_MAX = 1000, THREADS_MAX = 64 };
 
@@ -217,7 +220,9 @@ int frame_options_read(frame_options *o, int argc, char **argv) {
                          .budget = 16.6f,
                          .threads = 1,
                          .isa = LIMN_ISA_ALL};
-    const int status = bench_read_options(argc, argv, help, names, parse_option, o);
+    char text[sizeof help + sizeof scene_help];
+    snprintf(text, sizeof text, "%s%s", help, scene_help);
+    const int status = bench_read_options(argc, argv, text, names, parse_option, o);
     if (status >= 0) return status;
     if (optind < argc) {
         fprintf(stderr, "limn-bench: unexpected '%s'; see limn-bench frame --help\n", argv[optind]);

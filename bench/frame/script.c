@@ -221,8 +221,8 @@ static bool read_line(frame_script *script, const line *at) {
         const uint32_t given = at->count - 1;
         if (given >= kinds[k].least && given <= kinds[k].most && kinds[k].read(script, at))
             return true;
-        fprintf(stderr, "limn-bench: %s:%u: not of the form '%s%s%s', or out of range\n", at->path,
-                at->number, kinds[k].key, *kinds[k].form ? " " : "", kinds[k].form);
+        fprintf(stderr, "limn-bench: %s:%u: not of the form '%s%s', or out of range\n", at->path,
+                at->number, kinds[k].key, kinds[k].form);
         return false;
     }
     fprintf(stderr, "limn-bench: %s:%u: unknown key '%s'; see limn-bench frame --help\n", at->path,

@@ -85,7 +85,10 @@ file(MAKE_DIRECTORY "${WORK_DIR}")
 run("install" "${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${WORK_DIR}/first")
 file(RENAME "${WORK_DIR}/first" "${WORK_DIR}/moved here") # a space, too
 set(prefix "${WORK_DIR}/moved here")
-foreach(path bin/limn include/limn/limn.h include/limn/format.h include/limn/bake.h
+file(GLOB manuals RELATIVE "${BUILD_DIR}/docs" "${BUILD_DIR}/docs/*.1") # where there is help2man
+list(FILTER manuals EXCLUDE REGEX "^limn-bench")
+list(TRANSFORM manuals PREPEND share/man/man1/)
+foreach(path ${manuals} bin/limn include/limn/limn.h include/limn/format.h include/limn/bake.h
         ${CMAKE_INSTALL_LIBDIR}/cmake/limn/LimnBake.cmake ${CMAKE_INSTALL_LIBDIR}/pkgconfig/limn.pc)
     if(NOT EXISTS "${prefix}/${path}")
         message(FATAL_ERROR "${path} was not installed")
