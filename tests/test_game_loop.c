@@ -7,9 +7,12 @@
  */
 #include "check.h"
 #include "game_loop.h"
+#include "report.h"
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+
+const char view_program_name[] = "test_game_loop";
 
 // -------------------------------------------------------------------------------------------------
 // Calls of the allocator, which the linker leads here (--wrap)

@@ -162,7 +162,7 @@ expect_different shaded normals
 # A character, baked as it is opened: its material, its texture coordinates, and a moment of its clip.
 imp=$file
 file=$(cd "$(dirname "$0")/.." && pwd)/assets/imp.gltf
-for colour in materials clay uv; do
+for colour in materials clay uv classes; do
     draw character_$colour --size 160x120 --level 1 --colour $colour
 done
 draw character_waves --size 160x120 --level 1 --clip wave --time 0.25

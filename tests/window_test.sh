@@ -53,7 +53,7 @@ window() {
 }
 
 # expect NAME TOLERANCE FILE OPTION...: a picture without a window shows the same. Windows have a quarter of the
-# samples, so outlines differ by shades, and lines all along: in the mean by less than 0.5 and 2 of 255.
+# samples, so outlines differ by shades, and lines and borders of colours all along: in the mean by less than 0.5 and 2 of 255.
 expect() {
     name=$1
     tolerance=$2
@@ -73,18 +73,20 @@ expect_same() {
 }
 
 # Without the text, switch after switch.
-shots="h,f12,t,f12,t,c,f12,c,f12,c,c,c,p,f12,p,f,f12,f,w,w,f12,home,f12,h,f12"
+shots="h,f12,t,f12,t,c,f12,c,f12,c,f12,c,c,c,p,f12,p,f,f12,f,w,w,f12,home,f12,h,f12"
 window plain "$file" "$shots" --level 2
 expect plain.1 0.5 "$file" --level 2
 expect plain.2 2 "$file" --level 2 --wireframe
 expect plain.3 0.5 "$file" --level 2 --colour levels
 expect_different plain.1 plain.2
-expect plain.4 0.5 "$file" --level 2 --colour normals
-expect_different plain.1 plain.5
-expect_different plain.1 plain.7
-expect_same plain.1 plain.8
-expect_different plain.1 plain.9
-expect plain.6 0.5 "$file" --level 2 --shade flat
+expect plain.4 2 "$file" --level 2 --colour classes
+expect_different plain.4 plain.3
+expect plain.5 0.5 "$file" --level 2 --colour normals
+expect_different plain.1 plain.6
+expect_different plain.1 plain.8
+expect_same plain.1 plain.9
+expect_different plain.1 plain.10
+expect plain.7 0.5 "$file" --level 2 --shade flat
 
 # A driver that has no more than OpenGL 3.3 draws the same.
 MESA_GL_VERSION_OVERRIDE=3.3
@@ -92,10 +94,10 @@ MESA_EXTENSION_OVERRIDE="-GL_ARB_buffer_storage -GL_ARB_multi_draw_indirect"
 export MESA_GL_VERSION_OVERRIDE MESA_EXTENSION_OVERRIDE
 window older "$file" "$shots" --level 2
 unset MESA_GL_VERSION_OVERRIDE MESA_EXTENSION_OVERRIDE
-for number in 1 2 3 4 5 6 7 8; do
+for number in 1 2 3 4 5 6 7 8 9; do
     expect_same older.$number plain.$number
 done
-expect_different older.9 older.8
+expect_different older.10 older.9
 
 # Levels of detail from an eye, sewn and not, coarser, and with the runtime's light.
 eye="--eye 0.5,1.8,2 --target 0,1.6,0 --viewport 240x180 --colour levels --wireframe"

@@ -8,6 +8,7 @@
 
 #include "limn/character.h"
 #include "renderer.h"
+#include "scene.h"
 #include "workers.h"
 
 /// A mesh, and what of it changes from frame to frame: all memory that a frame needs.

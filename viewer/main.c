@@ -13,6 +13,8 @@
 #include <stdio.h>
 #include <string.h>
 
+const char view_program_name[] = "limn-view";
+
 enum { STATUS_OK = 0, STATUS_FAILED = 1, STATUS_USAGE = 2 };
 
 static const char description_help[] =
@@ -41,13 +43,12 @@ static const char options_help[] =
     "                          whole numbers, the next level on its way (morphing); default 4\n"
     "      --size WxH          of the picture, in pixels, up to 8192 each; default 1280x960, or\n"
     "                          with an eye the viewport; of the window 1280x720\n"
-    "      --colour WHAT       materials (default): base colours and textures, and clay where "
-    "there\n"
-    "                          are none; clay; uv: a chequered pattern in texture coordinates;\n"
-    "                          normals; or levels: of each patch the highest of its edges, 0 "
-    "blue,\n"
-    "                          1 light blue, 2 green, 3 yellow, 4 orange, and in between while\n"
-    "                          morphing\n"
+    "      --colour WHAT       materials (default): base colours and textures, and clay where\n"
+    "                          there are none; clay; uv: a chequered pattern in texture\n"
+    "                          coordinates; normals; levels: of each patch the highest of its\n"
+    "                          edges, 0 blue, 1 light blue, 2 green, 3 yellow, 4 orange, and in\n"
+    "                          between while morphing; or classes: regular patches grey, those of\n"
+    "                          each other class in a colour of their own\n"
     "      --shade HOW         smooth (default), or flat: each triangle by its own normal\n"
     "      --light HOW         the runtime's light on vertices, faint from the front, and a spot:\n"
     "                          interpolated or exact (limn_light_mode), or base: all light at the\n"
@@ -117,13 +118,14 @@ static bool parse_colour(view_picture *picture, const char *text) {
     static const char *const names[] = {[VIEW_COLOURS_MATERIALS] = "materials",
                                         [VIEW_COLOURS_CLAY] = "clay",
                                         [VIEW_COLOURS_LEVELS] = "levels",
+                                        [VIEW_COLOURS_CLASSES] = "classes",
                                         [VIEW_COLOURS_UV] = "uv",
                                         [VIEW_COLOURS_NORMALS] = "normals"};
     for (int colours = 0; colours < VIEW_COLOURS_COUNT; colours++) {
         picture->colours = (view_colours)colours;
         if (strcmp(text, names[colours]) == 0) return true;
     }
-    return view_fail("--colour '%s': not materials, clay, levels, uv or normals", text);
+    return view_fail("--colour '%s': not materials, clay, levels, classes, uv or normals", text);
 }
 
 static bool parse_shade(view_picture *picture, const char *text) {

@@ -3,6 +3,7 @@
 
 #include "context.h"
 #include "renderer.h"
+#include "scene.h"
 #include "target.h"
 #include <string.h>
 
@@ -39,7 +40,8 @@ static bool draw(const view_gl *gl, const view_scene *scene, const view_picture 
         return false;
     frame.camera = view_camera_matrices(&camera, aspect);
 
-    view_renderer *const renderer = view_renderer_create(gl, scene);
+    const view_surfaces surfaces = view_scene_surfaces(scene);
+    view_renderer *const renderer = view_renderer_create(gl, &surfaces);
     const bool drawn =
         renderer && upload_vertices(renderer, scene) && view_renderer_draw(renderer, &frame);
     view_renderer_destroy(renderer);

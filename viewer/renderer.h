@@ -5,7 +5,7 @@
 
 #include "camera.h"
 #include "gl.h"
-#include "scene.h"
+#include "surface.h"
 
 typedef struct view_renderer view_renderer;
 
@@ -13,6 +13,7 @@ typedef struct view_renderer view_renderer;
 typedef enum view_colours {
     VIEW_COLOURS_MATERIALS, ///< and clay where there are none
     VIEW_COLOURS_LEVELS,
+    VIEW_COLOURS_CLASSES,
     VIEW_COLOURS_NORMALS, ///< and no light
     VIEW_COLOURS_UV,      ///< a chequered pattern in texture coordinates
     VIEW_COLOURS_CLAY,
@@ -36,9 +37,9 @@ typedef struct view_frame {
 /// visible in a small one.
 float view_line_scale(uint32_t width, uint32_t height);
 
-/// Uploads what stays the same in all frames of a scene, which must outlive the renderer, as must
-/// `gl`. Reports why and returns NULL on failure.
-view_renderer *view_renderer_create(const view_gl *gl, const view_scene *scene);
+/// Uploads what stays the same in all frames: templates, materials, control meshes. What is drawn
+/// must outlive the renderer, as must `gl`. Reports why and returns NULL on failure.
+view_renderer *view_renderer_create(const view_gl *gl, const view_surfaces *drawn);
 
 /// Memory on the GPU for the vertices of the next frame, to be written by any thread, and not read:
 /// of all surfaces, each from its `first_vertex` on. Reports why and returns NULL on failure.

@@ -7,7 +7,7 @@
 bool view_fail(const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    fputs("limn-view: ", stderr);
+    fprintf(stderr, "%s: ", view_program_name);
     vfprintf(stderr, format, arguments);
     fputc('\n', stderr);
     va_end(arguments);

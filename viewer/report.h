@@ -11,6 +11,9 @@
 #define VIEW_PRINTF_LIKE
 #endif
 
+/// The name of the program, which it defines.
+extern const char view_program_name[];
+
 /// Prints one line to stderr, after the program's name. Returns false, so that a function that
 /// fails can end with `return view_fail(…)`.
 bool view_fail(const char *format, ...) VIEW_PRINTF_LIKE;

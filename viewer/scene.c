@@ -13,39 +13,6 @@ static bool has_too_many(const limn_mesh *mesh, uint64_t vertex_count) {
     return !view_fail("mesh '%s' has too many vertices", mesh->name);
 }
 
-/// The first rows of a domain are its corners. Sides of a patch have grid vectors (dx, dy) with a
-/// largest component of LIMN_GRID_SIZE, so the cross product below counts grid steps exactly.
-static uint8_t border_steps(const limn_domain *domain, uint32_t edge, limn_row row) {
-    if (edge >= domain->corner_count) return UINT8_MAX;
-    const limn_row from = domain->rows[edge], to = domain->rows[(edge + 1) % domain->corner_count];
-    const int dx = to.i - from.i, dy = to.j - from.j;
-    return (uint8_t)((dx * (row.j - from.j) - dy * (row.i - from.i)) / LIMN_GRID_SIZE);
-}
-
-void view_vertices_describe(const view_surface *surface, uint32_t begin, uint32_t end,
-                            view_vertex *vertices) {
-    const limn_plan *const plan = &surface->plan;
-    const limn_domain *const domain = plan->mesh->domain;
-    for (uint32_t p = begin; p < end; p++) {
-        const limn_plan_patch *const patch = &plan->patches[p];
-        const float level = patch->level > 0 ? (float)(patch->level - 1) + patch->morph : 0;
-        const uint8_t material =
-            surface->materials ? surface->materials[patch->patch] : VIEW_ALBEDO_NONE;
-        for (uint32_t row = 0; row < domain->row_counts[patch->level]; row++) {
-            view_vertex *const vertex = &vertices[patch->first_vertex + row];
-            vertex->level = level;
-            vertex->material = material;
-            for (uint32_t edge = 0; edge < sizeof vertex->borders; edge++)
-                vertex->borders[edge] = border_steps(domain, edge, domain->rows[row]);
-        }
-    }
-    if (surface->has_uv)
-        limn_evaluate_channel(plan, &surface->uv, surface->uv.mesh.controls, begin, end,
-                              &(limn_value_output){.values = vertices->uv,
-                                                   .stride = sizeof(view_vertex),
-                                                   .format = LIMN_VALUE_FLOAT2});
-}
-
 static void find_corner_weights(const limn_domain *domain, limn_row row, float weights[4]) {
     const float u = (float)row.i / LIMN_GRID_SIZE, v = (float)row.j / LIMN_GRID_SIZE;
     const bool quad = domain->kind == LIMN_DOMAIN_QUAD;
@@ -129,17 +96,6 @@ bool view_scene_evaluate(view_scene *scene) {
     return true;
 }
 
-static bool list_templates(const limn_domain *domain, view_templates *templates) {
-    const limn_topology topology = LIMN_TOPOLOGY_TRIANGLES;
-    if (templates->templates) return true;
-    templates->index_count = limn_templates_write(domain, topology, 2, NULL, NULL);
-    templates->indices = calloc(templates->index_count, sizeof *templates->indices);
-    templates->templates = calloc(limn_template_count(domain), sizeof *templates->templates);
-    if (!templates->indices || !templates->templates) return view_fail("out of memory");
-    limn_templates_write(domain, topology, 2, templates->indices, templates->templates);
-    return true;
-}
-
 /// Channel `number` of those that are texture coordinates.
 static void find_uv(const limn_pack *pack, uint32_t number, view_surface *surface) {
     for (uint32_t c = 0; c < surface->mesh.channel_count; c++) {
@@ -186,7 +142,7 @@ static bool open_meshes(view_scene *scene, limni_frame_options options, const vi
         scene->surface_count = i + 1;
         scene->surfaces[i].mesh = scene->moment.meshes[i].mesh;
         const limn_domain *const domain = scene->surfaces[i].mesh.domain;
-        if (!list_templates(domain, &scene->templates[domain->kind]) ||
+        if (!view_templates_make(&scene->templates[domain->kind], domain) ||
             !find_materials(&scene->pack, first + i, &scene->surfaces[i]))
             return false;
         if (!view_control_mesh_find(&scene->surfaces[i].control_mesh, &scene->surfaces[i].mesh))
@@ -221,12 +177,17 @@ void view_scene_close(view_scene *scene) {
     free(scene->surfaces);
     limni_moment_free(&scene->moment);
     view_albedo_free(&scene->albedo);
-    for (int domain = 0; domain < LIMN_DOMAIN_COUNT; domain++) {
-        free(scene->templates[domain].indices);
-        free(scene->templates[domain].templates);
-    }
+    for (int domain = 0; domain < LIMN_DOMAIN_COUNT; domain++)
+        view_templates_free(&scene->templates[domain]);
     view_asset_close(&scene->asset);
     *scene = (view_scene){0};
+}
+
+view_surfaces view_scene_surfaces(const view_scene *scene) {
+    return (view_surfaces){.surfaces = scene->surfaces,
+                           .count = scene->surface_count,
+                           .templates = scene->templates,
+                           .albedo = &scene->albedo};
 }
 
 static bool include_finest(view_framing *framing, const limn_mesh *mesh) {

@@ -3,47 +3,12 @@
 #ifndef VIEW_SCENE_H
 #define VIEW_SCENE_H
 
-#include "albedo.h"
 #include "asset.h"
 #include "camera.h"
-#include "control_mesh.h"
 #include "light.h"
-#include "limn/limn.h"
 #include "moment.h"
+#include "surface.h"
 #include <stdbool.h>
-
-/// One vertex as it is drawn.
-typedef struct view_vertex {
-    float position[3];
-    float normal[3];
-    float level;        ///< of the patch, a real number
-    uint8_t borders[4]; ///< grid steps, at most 16, from each edge of the patch; 255: no such edge
-    uint8_t light[4];   ///< where there are lamps: red, green, blue
-    float uv[2];        ///< texture coordinates; 0 where the mesh has none
-    uint8_t material;   ///< the layer of its albedo, or VIEW_ALBEDO_NONE
-    uint8_t reserved[3];
-} view_vertex;
-
-/// The index templates of a domain; empty unless a surface has it.
-typedef struct view_templates {
-    uint16_t *indices;
-    limn_template *templates;
-    uint32_t index_count;
-} view_templates;
-
-/// One mesh as the frame draws it.
-typedef struct view_surface {
-    limn_mesh mesh;
-    void *plan_memory;
-    limn_plan plan;        ///< of `mesh` above
-    uint32_t first_vertex; ///< among those of all surfaces
-    view_vertex *vertices; ///< [plan.vertex_count]; NULL where they go to the GPU at once
-    bool faceted;          ///< vertices have no normals
-    view_control_mesh control_mesh;
-    limn_channel uv; ///< where has_uv: the texture coordinates of its first material
-    bool has_uv;
-    uint8_t *materials; ///< [patch_count] VIEW_ALBEDO_NONE or a layer; NULL: nothing is said
-} view_surface;
 
 typedef struct view_scene {
     view_asset asset;
@@ -73,10 +38,8 @@ void view_scene_close(view_scene *scene);
 /// Plans and evaluates a frame of all surfaces in memory. Reports why and returns false on failure.
 bool view_scene_evaluate(view_scene *scene);
 
-/// Writes what vertices of patches [begin, end) of the plan of a surface have besides positions and
-/// normals.
-void view_vertices_describe(const view_surface *surface, uint32_t begin, uint32_t end,
-                            view_vertex *vertices);
+/// The surfaces of a scene, for a renderer.
+view_surfaces view_scene_surfaces(const view_scene *scene);
 
 /// A camera that sees all surfaces at their finest level, whatever level the scene has, so that
 /// pictures of different levels lie on top of each other; and the control points, if asked to.

@@ -6,6 +6,7 @@
 #include "game_loop.h"
 #include "keys.h"
 #include "picture.h"
+#include "scene.h"
 
 typedef struct view_session {
     const view_scene *scene;

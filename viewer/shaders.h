@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * All shaders. Colours and light are linear; the framebuffer encodes sRGB. Sources that differ
- * between a plain and a wireframe picture look at WIREFRAME, which renderer.c defines.
+ * The shaders of surfaces and of what is behind them. Colours and light are linear; the framebuffer
+ * encodes sRGB. Sources that differ between a plain and a wireframe picture look at WIREFRAME, which
+ * renderer.c defines.
  */
 #ifndef VIEW_SHADERS_H
 #define VIEW_SHADERS_H
@@ -32,7 +33,7 @@ static const char surface_vertex_source[] =
     "layout(location = 5) in vec2 uv;\n"
     "layout(location = 6) in vec4 material;\n"
     "uniform mat4 view, projection;\n"
-    "out Surface { vec3 position, normal, light, texel; float level; } surface;\n"
+    "out Surface { vec3 position, normal, light, texel, class_colour; float level; } surface;\n"
     "out vec4 vertex_borders;\n"
     "void main() {\n"
     "    surface.position = (view * vec4(position, 1)).xyz;\n"
@@ -40,6 +41,7 @@ static const char surface_vertex_source[] =
     "    surface.level = level;\n"
     "    surface.light = light.rgb;\n"
     "    surface.texel = vec3(uv, material.x);\n"
+    "    surface.class_colour = material.yzw / 255.0;\n"
     "    vertex_borders = borders;\n"
     "    gl_Position = projection * vec4(surface.position, 1);\n"
     "}\n";
@@ -52,9 +54,9 @@ static const char wireframe_geometry_source[] =
     "layout(triangle_strip, max_vertices = 3) out;\n"
     "uniform vec2 viewport;\n"
     "uniform float pixel_scale;\n"
-    "in Surface { vec3 position, normal, light, texel; float level; } corners[];\n"
+    "in Surface { vec3 position, normal, light, texel, class_colour; float level; } corners[];\n"
     "in vec4 vertex_borders[];\n"
-    "out Surface { vec3 position, normal, light, texel; float level; } surface;\n"
+    "out Surface { vec3 position, normal, light, texel, class_colour; float level; } surface;\n"
     "noperspective out vec3 side_distance;\n"
     "noperspective out vec4 border_distance;\n"
     "flat out float side_strength;\n"
@@ -78,6 +80,7 @@ static const char wireframe_geometry_source[] =
     "        surface.level = corners[i].level;\n"
     "        surface.light = corners[i].light;\n"
     "        surface.texel = corners[i].texel;\n"
+    "        surface.class_colour = corners[i].class_colour;\n"
     "        side_distance = vec3(0);\n"
     "        side_distance[i] = heights[i];\n"
     "        border_distance = vertex_borders[i] * step_pixels;\n"
@@ -92,7 +95,7 @@ static const char wireframe_geometry_source[] =
 // Materials, clay, or another kind of colours, between three lamps that stand still while the camera turns. The
 // colours of levels are Okabe and Ito's, which differ for those who are colour-blind too.
 static const char surface_fragment_source[] =
-    "in Surface { vec3 position, normal, light, texel; float level; } surface;\n"
+    "in Surface { vec3 position, normal, light, texel, class_colour; float level; } surface;\n"
     "out vec4 color;\n"
     "uniform float colours, vertex_light, flat_shading;\n"
     "uniform sampler2DArray materials;\n"
@@ -112,7 +115,8 @@ static const char surface_fragment_source[] =
     "vec3 surface_colour() {\n" // view_colours
     "    vec3 material = texture(materials, surface.texel).rgb;\n"
     "    if (colours == 1.0) return level_colour(surface.level);\n"
-    "    if (colours == 3.0) return chequer(surface.texel.xy);\n"
+    "    if (colours == 2.0) return surface.class_colour;\n"
+    "    if (colours == 4.0) return chequer(surface.texel.xy);\n"
     "    return colours == 0.0 && surface.texel.z < 254.5 ? material : clay;\n"
     "}\n"
     "vec3 lamp(vec3 albedo, vec3 normal, vec3 eye, vec3 direction, vec3 light, float gloss) {\n"
@@ -161,66 +165,11 @@ static const char surface_fragment_source[] =
     "    }\n"
     "    vec3 light = vertex_light > 0.0 ? 2.0 * albedo * surface.light\n"
     "                                    : 1.0 - exp(-1.15 * shade(albedo, normal, eye));\n"
-    "    if (colours == 2.0) light = pow(0.5 + 0.5 * normal, vec3(2.2));\n"
+    "    if (colours == 3.0) light = pow(0.5 + 0.5 * normal, vec3(2.2));\n"
     "#ifdef WIREFRAME\n"
     "    light = mix(light, vec3(0.012, 0.014, 0.018), lines());\n"
     "#endif\n"
     "    color = vec4(light, 1);\n"
-    "}\n";
-
-// Lines and points of the control mesh become rectangles of a width in pixels.
-static const char overlay_vertex_source[] =
-    "layout(location = 0) in vec3 position;\n"
-    "uniform mat4 view, projection;\n"
-    "void main() {\n"
-    "    gl_Position = projection * (view * vec4(position, 1));\n"
-    "    gl_Position.z -= 2e-4 * gl_Position.w;\n" // in front of a surface it lies on
-    "}\n";
-
-static const char line_geometry_source[] =
-    "layout(lines) in;\n"
-    "layout(triangle_strip, max_vertices = 4) out;\n"
-    "uniform vec2 viewport;\n"
-    "uniform float radius, pixel_scale;\n"
-    "noperspective out vec2 offset;\n"
-    "void main() {\n"
-    "    vec4 a = gl_in[0].gl_Position, b = gl_in[1].gl_Position;\n"
-    "    vec2 along = viewport * (b.xy / b.w - a.xy / a.w);\n"
-    "    along /= max(length(along), 1e-6);\n"
-    "    float reach = radius + pixel_scale;\n"
-    "    vec2 across = 2.0 * reach * vec2(-along.y, along.x) / viewport;\n"
-    "    for (int i = 0; i < 4; i++) {\n"
-    "        vec4 end = i < 2 ? a : b;\n"
-    "        float side = (i & 1) == 0 ? -1.0 : 1.0;\n"
-    "        offset = vec2(0, side * reach);\n"
-    "        gl_Position = end + vec4(side * across * end.w, 0, 0);\n"
-    "        EmitVertex();\n"
-    "    }\n"
-    "}\n";
-
-static const char point_geometry_source[] =
-    "layout(points) in;\n"
-    "layout(triangle_strip, max_vertices = 4) out;\n"
-    "uniform vec2 viewport;\n"
-    "uniform float radius, pixel_scale;\n"
-    "noperspective out vec2 offset;\n"
-    "void main() {\n"
-    "    vec4 center = gl_in[0].gl_Position;\n"
-    "    for (int i = 0; i < 4; i++) {\n"
-    "        offset = (radius + pixel_scale) * (2.0 * vec2(i & 1, i >> 1) - 1.0);\n"
-    "        gl_Position = center + vec4(2.0 * offset / viewport * center.w, 0, 0);\n"
-    "        EmitVertex();\n"
-    "    }\n"
-    "}\n";
-
-static const char overlay_fragment_source[] =
-    "uniform float radius, pixel_scale;\n"
-    "uniform vec4 overlay_color;\n"
-    "noperspective in vec2 offset;\n"
-    "out vec4 color;\n"
-    "void main() {\n"
-    "    float covered = clamp((radius - length(offset)) / pixel_scale + 0.5, 0.0, 1.0);\n"
-    "    color = vec4(overlay_color.rgb, overlay_color.a * covered);\n"
     "}\n";
 
 #endif

@@ -13,10 +13,11 @@ view_show *view_show_open(const view_gl *gl, view_workers *workers, const char *
         view_fail("out of memory");
         return NULL;
     }
-    if (view_scene_open(&show->scene, path, &options->frame, &no_light, options->mesh_index) &&
-        (show->renderer = view_renderer_create(gl, &show->scene)) &&
-        view_game_open(&show->game, &show->scene, workers))
-        return show;
+    if (view_scene_open(&show->scene, path, &options->frame, &no_light, options->mesh_index)) {
+        const view_surfaces surfaces = view_scene_surfaces(&show->scene);
+        show->renderer = view_renderer_create(gl, &surfaces);
+        if (show->renderer && view_game_open(&show->game, &show->scene, workers)) return show;
+    }
     view_show_close(show);
     return NULL;
 }
