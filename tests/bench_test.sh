@@ -49,10 +49,10 @@ printf 'camera 1 0 1 5 0 0 0 # nearer\n' >>few.scene
 expect frame "$bench" frame --scene few.scene --frames 16 --rounds 1 --lod error:4 --threads 2 --peers floats,dense,discrete \
     --json few.json --csv few.csv --html few.html >few.txt
 expect "a line for each frame" [ "$(grep -c '^few,3,' few.csv)" = 64 ]
-expect "one value per column" [ "$(grep -v '^#' few.csv | awk -F, '{ print NF }' | sort -u)" = 23 ]
-expect "stages with times" [ "$(awk -F, '/"limn"/ && ($6 <= 0 || $8 <= 0 || $9 <= 0 || $10 <= 0 || $13 <= 0)' few.csv)" = "" ]
-expect "16 bytes a vertex, lit and packed, and 24 as floats" [ "$(awk -F, '/"limn"|"floats"/ && $17 != $15 * ($3 ~ /limn/ ? 16 : 24)' few.csv)" = "" ]
-expect "patches are drawn or culled" [ "$(awk -F, '/"limn"/ && $18 + $19 + $20 + $21 + $22 + $23 != 3 * 680' few.csv)" = "" ]
+expect "one value per column" [ "$(grep -v '^#' few.csv | awk -F, '{ print NF }' | sort -u)" = 24 ]
+expect "stages with times" [ "$(awk -F, '/"limn"/ && ($6 <= 0 || $8 <= 0 || $9 <= 0 || $10 <= 0 || $14 <= 0)' few.csv)" = "" ]
+expect "16 bytes a vertex, lit and packed, and 24 as floats" [ "$(awk -F, '/"limn"|"floats"/ && $18 != $16 * ($3 ~ /limn/ ? 16 : 24)' few.csv)" = "" ]
+expect "patches are drawn or culled" [ "$(awk -F, '/"limn"/ && $19 + $20 + $21 + $22 + $23 + $24 != 3 * 680' few.csv)" = "" ]
 expect "three pictures" [ "$(grep -c '<svg' few.html)" = 3 ]
 expect "a page of its own" sh -c "! grep -q 'http\|<script\|src=' few.html"
 expect "the same is no slower" "$bench" compare few.json few.json >compare.txt
@@ -65,6 +65,18 @@ expect "which is said" grep -q ' 0.500 .*faster$' compare.txt
 expect "no results" sh -c "echo '{}' >none.json; '$bench' compare few.json none.json 2>error.txt; [ \$? = 2 ]"
 expect "are named" grep -q none.json error.txt
 expect "a crowd for each way" sh -c "'$bench' frame --scene few.scene --quick --find-crowd --budget 0.5 | grep -q '^  limn  *[0-9]'"
+# Frames that are drawn, where limn-view is built, too
+sed '$a viewport 64 36' few.scene >small.scene
+if "$bench" frame --scene small.scene --png 0.png 2>error.txt || ! grep -q 'built without' error.txt; then
+    expect "another frame" "$bench" frame --scene small.scene --png 119.png --frame 119
+    expect "is another picture" sh -c "! cmp -s 0.png 119.png"
+    expect "a picture of a size" "$bench" frame --scene small.scene --png large.png --size 160x90
+    expect "as large" [ "$(od -An -tu1 -j16 -N8 large.png | tr -s ' ')" = " 0 0 0 160 0 0 0 90" ]
+    expect "no such frame" sh -c "'$bench' frame --scene small.scene --png no.png --frame 120 2>error.txt; [ \$? = 2 ]"
+    expect "draw" "$bench" frame --scene small.scene --quick --draw --csv draw.csv >draw.txt
+    expect "drawing takes time" [ "$(awk -F, '/"drawn"/ && ($13 <= 0 || $14 < $13)' draw.csv)" = "" ]
+    expect "of that way alone" [ "$(awk -F, '/^small/ && ($13 > 0) != /"drawn"/' draw.csv)" = "" ]
+fi
 printf 'mesh a.obj\n\nlod error -1\n' >bad.scene
 expect "a wrong line" sh -c "! '$bench' frame --scene bad.scene --csv bad.csv 2>error.txt"
 expect "is named" grep -q 'bad.scene:3: .*lod error PX' error.txt

@@ -168,6 +168,7 @@ done
 draw character_waves --size 160x120 --level 1 --clip wave --time 0.25
 expect_different character_materials character_clay
 expect_different character_uv character_clay
+expect_different character_classes character_clay
 expect_different character_waves character_materials
 file=$imp
 

@@ -43,6 +43,7 @@
     X(ENABLE, Enable)                                                                              \
     X(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray)                                            \
     X(FENCESYNC, FenceSync)                                                                        \
+    X(FINISH, Finish)                                                                              \
     X(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer)                                            \
     X(GENBUFFERS, GenBuffers)                                                                      \
     X(GENFRAMEBUFFERS, GenFramebuffers)                                                            \

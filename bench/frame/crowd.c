@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static float part_of(double x) {
     return (float)(x - floor(x));
@@ -58,6 +59,23 @@ static void enter(const frame_actor *actor, const frame_instance *instance, cons
         out[axis] += actor->middle[axis];
 }
 
+void frame_crowd_place(const frame_crowd *crowd, uint32_t instance, float *matrix) {
+    const frame_actor *const actor = crowd->actor;
+    const frame_instance *const where = &crowd->instances[instance];
+    float middle[3];
+    memset(matrix, 0, 16 * sizeof *matrix);
+    for (int axis = 0; axis < 3; axis++) {
+        const float unit[3] = {axis == 0, axis == 1, axis == 2};
+        turn(unit, where->yaw, matrix + 4 * axis);
+        for (int row = 0; row < 3; row++)
+            matrix[4 * axis + row] /= actor->diagonal;
+    }
+    turn(actor->middle, where->yaw, middle);
+    for (int row = 0; row < 3; row++)
+        matrix[12 + row] = where->place[row] - middle[row] / actor->diagonal;
+    matrix[15] = 1;
+}
+
 // -------------------------------------------------------------------------------------------------
 // The camera
 
@@ -89,14 +107,13 @@ static bool is_visible(const frame_actor *actor, const limn_view *view) {
     return true;
 }
 
-static void see(const frame_crowd *crowd, frame_instance *instance, const float eye[3],
-                const float target[3]) {
+static void see(const frame_crowd *crowd, frame_instance *instance) {
     static const float up[3] = {0, 1, 0};
     const frame_actor *const actor = crowd->actor;
     const frame_script *const script = crowd->script;
     float from[3], to[3];
-    enter(actor, instance, eye, from);
-    enter(actor, instance, target, to);
+    enter(actor, instance, crowd->eye, from);
+    enter(actor, instance, crowd->target, to);
     instance->view =
         limn_view_perspective(from, to, up, script->fov, script->viewport[0], script->viewport[1],
                               actor->diagonal / 100, actor->diagonal * 1000);
@@ -104,13 +121,12 @@ static void see(const frame_crowd *crowd, frame_instance *instance, const float 
 }
 
 void frame_crowd_see(frame_crowd *crowd, uint32_t frame, uint32_t frame_count) {
-    float eye[3], target[3];
-    find_camera(crowd->script, (float)frame / (float)(frame_count > 1 ? frame_count - 1 : 1), eye,
-                target);
+    find_camera(crowd->script, (float)frame / (float)(frame_count > 1 ? frame_count - 1 : 1),
+                crowd->eye, crowd->target);
     crowd->seconds = (float)frame / FRAME_RATE;
     crowd->visible_count = 0;
     for (uint32_t i = 0; i < crowd->count; i++) {
-        see(crowd, &crowd->instances[i], eye, target);
+        see(crowd, &crowd->instances[i]);
         if (crowd->instances[i].visible) crowd->visible[crowd->visible_count++] = i;
     }
 }
@@ -119,17 +135,24 @@ float frame_crowd_time(const frame_crowd *crowd, uint32_t instance) {
     return crowd->seconds + crowd->instances[instance].start;
 }
 
-void frame_crowd_lights(const frame_crowd *crowd, uint32_t instance, limn_light *lights) {
+limn_lighting frame_crowd_lighting(const frame_crowd *crowd, uint32_t instance,
+                                   limn_light *lights) {
     const frame_actor *const actor = crowd->actor;
-    const frame_instance *const where = &crowd->instances[instance];
-    for (uint32_t l = 0; l < crowd->script->light_count; l++) {
-        lights[l] = crowd->script->lights[l];
-        turn(crowd->script->lights[l].direction, -where->yaw, lights[l].direction);
+    const frame_script *const script = crowd->script;
+    limn_lighting lighting = {.mode = script->light == FRAME_LIGHT_EXACT ? LIMN_LIGHT_EXACT
+                                                                         : LIMN_LIGHT_INTERPOLATED,
+                              .lights = lights,
+                              .light_count = script->light_count};
+    memcpy(lighting.ambient, script->ambient, sizeof lighting.ambient);
+    for (uint32_t l = 0; l < script->light_count; l++) {
+        lights[l] = script->lights[l];
+        turn(script->lights[l].direction, -crowd->instances[instance].yaw, lights[l].direction);
         lights[l].range *= actor->diagonal;
         for (int axis = 0; axis < 3; axis++)
             lights[l].position[axis] =
                 actor->middle[axis] + actor->diagonal * lights[l].position[axis];
     }
+    return lighting;
 }
 
 float frame_crowd_scale(const frame_crowd *crowd, uint32_t instance) {

@@ -23,7 +23,8 @@ typedef struct frame_crowd {
     frame_instance *instances;
     uint32_t *visible; ///< [visible_count] those that may be seen, in order
     uint32_t visible_count;
-    float seconds; ///< of the animation
+    float eye[3], target[3]; ///< of the camera, diagonals
+    float seconds;           ///< of the animation
 } frame_crowd;
 
 /// The first `count` of a sequence that fills the area evenly, so that a larger crowd is a denser
@@ -39,10 +40,15 @@ void frame_crowd_see(frame_crowd *crowd, uint32_t frame, uint32_t frame_count);
 /// When an instance is in the clip.
 float frame_crowd_time(const frame_crowd *crowd, uint32_t instance);
 
-/// The lights of the scene in the space of an instance.
+/// Where an instance stands, in diagonals: a column-major matrix from its space into the scene's.
 ///
-/// lights  out: [script->light_count]
-void frame_crowd_lights(const frame_crowd *crowd, uint32_t instance, limn_light *lights);
+/// matrix  out: [16]
+void frame_crowd_place(const frame_crowd *crowd, uint32_t instance, float *matrix);
+
+/// The light of the scene in the space of an instance.
+///
+/// lights  out: [script->light_count], which the result points to
+limn_lighting frame_crowd_lighting(const frame_crowd *crowd, uint32_t instance, limn_light *lights);
 
 /// Pixels of a model unit at the middle of an instance.
 float frame_crowd_scale(const frame_crowd *crowd, uint32_t instance);

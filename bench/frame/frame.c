@@ -5,6 +5,7 @@
 #include "find_crowd.h"
 #include "options.h"
 #include "report.h"
+#include "way_drawn.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -42,6 +43,9 @@ static bool report(const frame_result *result, const files *f) {
 
 static bool add_ways(frame_ways *ways, const frame_host *host, const frame_options *o) {
     bool good = frame_ways_add_limn(ways, host);
+#ifdef BENCH_WITH_DRAWING
+    good = good && (!o->draws || frame_ways_add_drawn(ways, host));
+#endif
     for (uint32_t p = 0; p < frame_peer_count && good; p++)
         good = !(o->peers & 1u << p) || frame_peers[p].add(ways, host);
     return good;
@@ -67,6 +71,18 @@ static bool measure(const frame_host *host, const frame_ways *ways, const frame_
     return good;
 }
 
+static bool draw_picture(const frame_host *host, const frame_options *o) {
+#ifdef BENCH_WITH_DRAWING
+    const float *const viewport = host->script->viewport;
+    return frame_draw_picture(host, o->frame, o->length.frames,
+                              o->width ? o->width : (uint32_t)viewport[0],
+                              o->width ? o->height : (uint32_t)viewport[1], o->png);
+#else
+    (void)host;
+    return !o->png; // is refused before
+#endif
+}
+
 static bool run_script(const frame_script *script, const frame_options *o, const files *f) {
     frame_actor actor;
     frame_ways ways = {.count = 0};
@@ -76,7 +92,10 @@ static bool run_script(const frame_script *script, const frame_options *o, const
                            strcmp(o->clock, "wall") == 0 ? bench_seconds : bench_thread_seconds};
     bool good = frame_actor_create(&actor, script, limn_kernels_select(o->isa, o->family));
     if (good && o->threads > 1) host.threads = team_create(o->threads);
-    good = good && add_ways(&ways, &host, o) && measure(&host, &ways, o, f);
+    if (o->png)
+        good = good && draw_picture(&host, o);
+    else
+        good = good && add_ways(&ways, &host, o) && measure(&host, &ways, o, f);
     frame_ways_destroy(&ways);
     if (host.threads) team_destroy(host.threads);
     frame_actor_destroy(&actor);

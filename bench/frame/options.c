@@ -41,11 +41,21 @@ static const char help[] =
     "  --clock C      wall (default); thread: the time that the thread ran, where others use the\n"
     "                 machine, too; of one thread only\n"
     "  --peers LIST   the same frames by other ways: names with commas between, or all\n"
+    "  --draw         beside Limn, Limn as limn-view draws it: vertices of 48 bytes, written into\n"
+    "                 what is drawn, and OpenGL in software, on all cores, until the picture is\n"
+    "                 there; made by one thread\n"
     "  --find-crowd   the largest crowd of each way that keeps the budget at p99, on the scene's "
     "area\n"
     "  --json FILE    all results, for limn-bench compare\n"
     "  --csv FILE     a line per frame\n"
-    "  --html FILE    a page with pictures\n\n"
+    "  --html FILE    a page with pictures\n"
+    "  --png FILE     instead of all that, a picture of a frame: triangles, borders of patches, "
+    "and\n"
+    "                 a colour for each level, as with limn-view --colour levels --wireframe\n"
+    "  --frame N      that frame, counted from 0 (default 0)\n"
+    "  --size WxH     of the picture, whose levels are those of the scene's viewport, which is "
+    "the\n"
+    "                 default\n\n"
     "Peers:\n"
     "  floats         Limn, writing what they write\n"
     "  dense          the mesh of level 4, or of the scene's level, skinned: AVX2 or SSE2, four\n"
@@ -58,7 +68,7 @@ static const char help[] =
 
 static const char scene_help[] = "Lines of a scene:\n" FRAME_SCRIPT_HELP;
 
-enum { FRAMES_MAX = 10000, ROUNDS_MAX = 1000, THREADS_MAX = 64 };
+enum { FRAMES_MAX = 10000, ROUNDS_MAX = 1000, THREADS_MAX = 64, PICTURE_SIDE_MAX = 8192 };
 
 const frame_peer frame_peers[] = {
     {"floats", frame_ways_add_floats},     {"dense", frame_ways_add_dense},
@@ -159,6 +169,14 @@ static bool parse_option(int option, void *parsed) {
         return parse_peers(optarg, &to->peers);
     case 'F':
         return to->finds_crowd = true;
+    case 'd':
+        return to->draws = true;
+    case 'g':
+        return take(&to->png);
+    case 'N':
+        return bench_parse_range(optarg, 0, FRAMES_MAX - 1, &to->frame);
+    case 'z':
+        return limni_parse_size(optarg, PICTURE_SIDE_MAX, &to->width, &to->height);
     default:
         return parse_run(option, to);
     }
@@ -192,6 +210,19 @@ bool frame_options_script(const frame_options *o, frame_script *script) {
     return true;
 }
 
+static bool check(const frame_options *o) {
+    const char *wrong = NULL;
+    if ((o->threads > 1 || o->draws) && strcmp(o->clock, "wall") != 0)
+        wrong = "--clock thread is of one thread";
+    if (o->frame >= o->length.frames) wrong = "--frame: there are not so many --frames";
+    if ((o->frame > 0 || o->width > 0) && !o->png) wrong = "--frame and --size are of a --png";
+#ifndef BENCH_WITH_DRAWING
+    if (o->draws || o->png) wrong = "--draw and --png: built without limn-view";
+#endif
+    if (wrong) fprintf(stderr, "limn-bench: %s\n", wrong);
+    return !wrong;
+}
+
 int frame_options_read(frame_options *o, int argc, char **argv) {
     static const struct option names[] = {{"scene", required_argument, NULL, 's'},
                                           {"mesh", required_argument, NULL, 'm'},
@@ -209,6 +240,10 @@ int frame_options_read(frame_options *o, int argc, char **argv) {
                                           {"clock", required_argument, NULL, 'k'},
                                           {"peers", required_argument, NULL, 'o'},
                                           {"find-crowd", no_argument, NULL, 'F'},
+                                          {"draw", no_argument, NULL, 'd'},
+                                          {"png", required_argument, NULL, 'g'},
+                                          {"frame", required_argument, NULL, 'N'},
+                                          {"size", required_argument, NULL, 'z'},
                                           {"json", required_argument, NULL, 'j'},
                                           {"csv", required_argument, NULL, 'c'},
                                           {"html", required_argument, NULL, 'w'},
@@ -228,9 +263,5 @@ int frame_options_read(frame_options *o, int argc, char **argv) {
         fprintf(stderr, "limn-bench: unexpected '%s'; see limn-bench frame --help\n", argv[optind]);
         return 2;
     }
-    if (o->threads > 1 && strcmp(o->clock, "wall") != 0) {
-        fputs("limn-bench: --clock thread is of one thread\n", stderr);
-        return 2;
-    }
-    return -1;
+    return check(o) ? -1 : 2;
 }

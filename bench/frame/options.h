@@ -25,6 +25,10 @@ typedef struct frame_options {
     limn_family family;
     uint32_t peers; ///< bit p: frame_peers[p]
     bool finds_crowd;
+    bool draws;
+    const char *png;        ///< a picture instead of times
+    uint32_t frame;         ///< of the picture
+    uint32_t width, height; ///< of the picture; 0: the scene's
 } frame_options;
 
 /// Reads all options. Returns the exit status, or -1 to go on.

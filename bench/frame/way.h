@@ -15,7 +15,8 @@
     X(PLAN, "plan", "views, who is in view, and levels")                                           \
     X(EVALUATE, "evaluate", "positions and unit normals, as floats")                               \
     X(LIGHT, "light", "what colours add to that")                                                  \
-    X(PACK, "pack", "what packed formats add to that")
+    X(PACK, "pack", "what packed formats add to that")                                             \
+    X(DRAW, "draw", "drawing, by OpenGL in software")
 
 typedef enum frame_stage {
 #define FRAME_STAGE(name, text, meaning) FRAME_##name,
@@ -77,6 +78,7 @@ frame_ways_add frame_ways_add_dense;    ///< the skinned mesh of the finest leve
 frame_ways_add frame_ways_add_discrete; ///< skinned meshes of all levels
 frame_ways_add frame_ways_add_stencils; ///< OpenSubdiv's limit stencils, and its Bfr surfaces
 frame_ways_add frame_ways_add_bfr;
+frame_ways_add frame_ways_add_drawn; ///< Limn, and its surfaces are drawn
 
 /// Memory for poses, one for each thread.
 frame_pose_memory *frame_host_create_poses(const frame_host *host);

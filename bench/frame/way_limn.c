@@ -145,14 +145,9 @@ static limn_output output_of(const state *self, const body *b, const limn_lighti
 static void evaluate_body(const state *self, const body *b, uint64_t begin, uint64_t end) {
     const uint64_t first = b->first_vertex, behind = first + b->vertex_count;
     if (behind <= begin || first >= end) return;
-    const frame_script *const script = self->host.script;
     limn_light lights[FRAME_LIGHT_MAX];
-    limn_lighting lighting = {.mode = script->light == FRAME_LIGHT_EXACT ? LIMN_LIGHT_EXACT
-                                                                         : LIMN_LIGHT_INTERPOLATED,
-                              .lights = lights,
-                              .light_count = script->light_count};
-    memcpy(lighting.ambient, script->ambient, sizeof lighting.ambient);
-    if (self->now.lit) frame_crowd_lights(self->crowd, b->instance, lights);
+    limn_lighting lighting = {0};
+    if (self->now.lit) lighting = frame_crowd_lighting(self->crowd, b->instance, lights);
     const limn_output output = output_of(self, b, &lighting);
     const uint64_t from = begin > first ? begin - first : 0;
     const uint64_t to = (end < behind ? end : behind) - first;
