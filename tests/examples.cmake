@@ -1,5 +1,7 @@
-# The examples in the public headers are compiled: the indented lines of a header's first comment become the body of a
-# function, behind `declarations`.
+# The code that the documentation shows is compiled, or compared with a program that is.
+
+# limn_example_source(<header> <declarations> <output>): the indented lines of a public header's first comment, as the
+# body of a function, behind `declarations`.
 function(limn_example_source header declarations output)
     file(READ ${PROJECT_SOURCE_DIR}/include/limn/${header} text)
     string(REGEX MATCH "\n \\*     [^\n]*(\n \\*     [^\n]*)*" example "${text}")
@@ -13,3 +15,73 @@ function(limn_example_source header declarations output)
 int main(void) {\n    ${example}\n    return 0;\n}\n" @ONLY)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/limn/${header})
 endfunction()
+
+# limn_page_block(<text> <language> <block>): takes the first block of C or CMake off the text of a page, with what is
+# before it. An empty language: there is no more.
+function(limn_page_block page_out language_out block_out)
+    set(page "${${page_out}}")
+    string(FIND "${page}" "\n```c" begin)
+    if(begin EQUAL -1)
+        set(${language_out} "" PARENT_SCOPE)
+        return()
+    endif()
+    math(EXPR begin "${begin} + 4")
+    string(SUBSTRING "${page}" ${begin} -1 page)
+    string(FIND "${page}" "\n" first)
+    string(FIND "${page}" "\n```" end)
+    string(SUBSTRING "${page}" 0 ${first} found)
+    math(EXPR length "${end} - ${first}")
+    string(SUBSTRING "${page}" ${first} ${length} code)
+    math(EXPR end "${end} + 4")
+    string(SUBSTRING "${page}" ${end} -1 page)
+    set(${language_out} "${found}" PARENT_SCOPE)
+    set(${block_out} "${code}\n" PARENT_SCOPE)
+    set(${page_out} "${page}" PARENT_SCOPE)
+endfunction()
+
+# limn_page_source(<page> <output>): the blocks of C of a page, one after another, are one C file.
+function(limn_page_source page output)
+    file(READ ${PROJECT_SOURCE_DIR}/${page} text)
+    set(source "")
+    limn_page_block(text language block)
+    while(language)
+        if(language STREQUAL "c")
+            string(APPEND source "${block}")
+        endif()
+        limn_page_block(text language block)
+    endwhile()
+    if(source STREQUAL "")
+        message(FATAL_ERROR "${page} shows no C")
+    endif()
+    file(CONFIGURE OUTPUT ${output} CONTENT "${source}" @ONLY)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${page})
+endfunction()
+
+# limn_page_parts(<page> <file>...): every block of C or CMake of a page must be a part of one of the files, line by line.
+function(limn_page_parts page)
+    set(sources "")
+    foreach(file IN LISTS ARGN)
+        file(READ ${file} source)
+        string(APPEND sources "\n${source}")
+    endforeach()
+    file(READ ${page} text)
+    set(count 0)
+    limn_page_block(text language block)
+    while(language)
+        string(FIND "${sources}" "${block}" found)
+        if(found EQUAL -1)
+            message("${block}")
+            message(FATAL_ERROR "${page} shows this, which is in none of ${ARGN}")
+        endif()
+        math(EXPR count "${count} + 1")
+        limn_page_block(text language block)
+    endwhile()
+    if(count EQUAL 0)
+        message(FATAL_ERROR "${page} shows no code")
+    endif()
+endfunction()
+
+# As a test: cmake -DPAGE=<page> "-DSOURCES=<file>;..." -P examples.cmake
+if(CMAKE_SCRIPT_MODE_FILE)
+    limn_page_parts(${PAGE} ${SOURCES})
+endif()

@@ -112,19 +112,6 @@ endforeach()
 # Its own copy: the test changes its meshes.
 set(project "${WORK_DIR}/project")
 file(COPY "${CMAKE_CURRENT_LIST_DIR}/" DESTINATION "${project}")
-# With the examples of the README.
-file(READ "${SOURCE_DIR}/README.md" text)
-file(WRITE "${project}/readme.c" "")
-string(FIND "${text}" "\n```c\n" start)
-while(NOT start EQUAL -1)
-    string(SUBSTRING "${text}" ${start} -1 text)
-    string(REGEX REPLACE "^\n```c\n" "" text "${text}")
-    string(FIND "${text}" "\n```\n" end)
-    string(SUBSTRING "${text}" 0 ${end} example)
-    file(APPEND "${project}/readme.c" "${example}\n")
-    string(SUBSTRING "${text}" ${end} -1 text)
-    string(FIND "${text}" "\n```c\n" start)
-endwhile()
 set(common -S "${project}" "-DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}"
     "-DCMAKE_C_COMPILER=${CMAKE_C_COMPILER}" "-DCMAKE_C_FLAGS=${CMAKE_C_FLAGS}"
     "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}" "-DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}")
@@ -189,6 +176,19 @@ run("build with changed options" "${CMAKE_COMMAND}" --build "${build}")
 stamp("${build}/packs/pair.limn" after)
 if(before STREQUAL after)
     message(FATAL_ERROR "pair.limn was not baked again when its options changed")
+endif()
+
+# ---- The program of docs/getting-started.md
+
+cached(PNG_PNG_INCLUDE_DIR)
+if(PNG_PNG_INCLUDE_DIR)
+    set(first_frame "${WORK_DIR}/first_frame")
+    run("configure first_frame" "${CMAKE_COMMAND}" -S "${SOURCE_DIR}/examples/first_frame" -B "${first_frame}"
+        -G "${CMAKE_GENERATOR}" "-DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}" "-DCMAKE_C_COMPILER=${CMAKE_C_COMPILER}"
+        "-DCMAKE_C_FLAGS=${CMAKE_C_FLAGS}" ${package} "-DMESH=${SOURCE_DIR}/assets/imp.obj")
+    run("build first_frame" "${CMAKE_COMMAND}" --build "${first_frame}")
+    run("first_frame" "${first_frame}/first_frame" "${first_frame}/mesh.limn" "${first_frame}/picture.png")
+    expect_output("first_frame" "imp: 680 of 680 patches")
 endif()
 
 # ---- A cross build, as far as a project can tell
