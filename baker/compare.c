@@ -27,11 +27,11 @@ static uint32_t longest_smooth_run(const limni_star *star, uint32_t first_sharp)
     return longest;
 }
 
-/// Whether normals at a vertex can be compared (docs/design.md). OpenSubdiv's tangents at boundary
-/// vertices with four faces and more, of quads three, are not those of the limit, but converge to
-/// them with the level of refinement, and those of its surfaces likewise on creases with as many
-/// faces on a side, and at corners with smooth edges. Ours are not those of the limit at the end of
-/// a crease. Two quads back to back have no tangent plane.
+/// Whether normals at a vertex can be compared (docs/mathematics.md). OpenSubdiv's tangents at
+/// boundary vertices with four faces and more, of quads three, are not those of the limit, but
+/// converge to them with the level of refinement, and those of its surfaces likewise on creases with
+/// as many faces on a side, and at corners with smooth edges. Ours are not those of the limit at the
+/// end of a crease. Two quads back to back have no tangent plane.
 ///
 /// sided  see answer
 static bool has_comparable_normals(const limni_star *star, bool sided) {

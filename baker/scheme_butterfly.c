@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The modified butterfly (Zorin, Schroeder and Sweldens 1996; Sharp 2000). docs/design.md has the
- * masks and tangents in print and where the texts are wrong or silent. Vertices stay where they are.
+ * The modified butterfly (Zorin, Schroeder and Sweldens 1996; Sharp 2000). docs/mathematics.md has
+ * the masks and tangents, and tests/butterfly/butterfly.h where the texts are wrong or silent.
+ * Vertices stay where they are.
  */
 #include "masks.h"
 
@@ -212,8 +213,8 @@ static void add_extraordinary_across(limni_masks *masks) {
         add_difference(masks, masks->star.ring[r], limni_fixed_turn(r, 2 * k).sine);
 }
 
-/// A sixteenth of the mask in docs/design.md: two neighbours on the boundary each way, four vertices
-/// of the next row, and three of the one behind it.
+/// A sixteenth of the mask in docs/mathematics.md: two neighbours on the boundary each way, four
+/// vertices of the next row, and three of the one behind it.
 static void add_regular_across_boundary(limni_masks *masks) {
     const regular_weights w = weights_of(masks->rules);
     const limni_fixed one = LIMNI_FIXED_ONE, f = w.far, q = w.wing;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Catmull-Clark subdivision (1978), with cubic B-spline creases and boundaries as OpenSubdiv has
- * them. Limits and tangents are those of meshes of quads. docs/design.md derives them.
+ * them. Limits and tangents are those of meshes of quads. docs/mathematics.md has them.
  */
 #include "masks.h"
 

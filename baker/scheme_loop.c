@@ -3,7 +3,7 @@
  * Loop subdivision (Loop 1987) with Loop's or Warren's weights, and cubic B-spline creases and
  * boundaries: all of them, as OpenSubdiv does, or only at regular vertices, as Hoppe et al. (1994)
  * and Lomont do.
- * docs/design.md compares the formulas in print; several do not sum to 1.
+ * docs/mathematics.md compares the formulas in print; several do not sum to 1.
  */
 #include "masks.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Lomont's rules for creases ("High Performance Subdivision Surfaces", 2007), as docs/design.md has
- * them. What is known beyond an edge is the type of the vertex there, which its mask depends on.
+ * Lomont's rules for creases ("High Performance Subdivision Surfaces", 2007), as
+ * docs/mathematics.md has them. What is known beyond an edge is the type of the vertex there, which its mask depends on.
  */
 #include "crease_rules.h"
 

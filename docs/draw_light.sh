@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# The pictures of light in docs/design.md. The target docs-pictures runs it.
+# The pictures of light in docs/mathematics.md. The target docs-pictures runs it.
 #   sh draw_light.sh LIMN LIMN_VIEW MESH.obj OUT_FOLDER
 set -eu
 limn=$1 view=$2 mesh=$3 out=$4

@@ -2,7 +2,7 @@
 /*
  * From control points and a table to the rows of one patch.
  *
- * Bitwise watertight (docs/design.md): lanes run across rows, never across a sum. Every row that
+ * Bitwise watertight (docs/mathematics.md): lanes run across rows, never across a sum. Every row that
  * patches may share is the sum of its control points in ascending global order, starting from +0
  * and rounded after each product and each sum, so two patches that share it add the same numbers in
  * the same order. Slots outside a row's support have coefficient +0 and leave the sum as it is.

@@ -143,7 +143,7 @@ static void evaluate(const subject *s, const limn_plan *plan, vertex *vertices) 
                                  .lighting = &s->lighting});
 }
 
-// ---- The reference: as docs/design.md has it, in floats
+// ---- The reference: as docs/mathematics.md has it, in floats
 
 /// The inverse root of the runtime: a guess from the bits, and three steps.
 static float inverse_root(float a) {

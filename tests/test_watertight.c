@@ -242,7 +242,7 @@ static void check_mesh(subject *s) {
 }
 
 /// Below 0 only where it is what two floats leave, and with Chaikin's method and the butterfly
-/// (docs/design.md).
+/// (docs/mathematics.md).
 static double least_coefficient = -0x1p-26;
 
 /// What a row is below 0 in all is never more than the class says, which is what one row is: of the

@@ -623,9 +623,9 @@ typedef enum limn_lod {
     LIMN_LOD_LENGTH,  ///< so that steps along an edge are `pixels` long on the screen
     LIMN_LOD_UNIFORM, ///< `level` everywhere
     LIMN_LOD_ERROR    ///< so that what is drawn is `pixels` off the limit surface at most; 99 % of
-                      ///< patches keep to that, others nearly (docs/design.md). The baker measured
-                      ///< the bind pose; since then errors scale with the edges. What would need
-                      ///< more than LIMN_LEVEL_MAX gets that
+                      ///< patches keep to that, others nearly (docs/mathematics.md). The baker
+                      ///< measured the bind pose; since then errors scale with the edges. What
+                      ///< would need more than LIMN_LEVEL_MAX gets that
 } limn_lod;
 
 /// How the levels of a frame are chosen. Zero means default, everywhere.
