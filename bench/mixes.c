@@ -51,6 +51,7 @@ static bool bake_mix(bench_mix *mix, const char *name, limn_bake_status added) {
 limn_baker *bench_baker(bench_way way) {
     return limn_baker_create(&(limn_bake_desc){.scheme = way.scheme,
                                                .normals = LIMN_NORMALS_EXACT,
+                                               .no_channels = true,
                                                .isolate = way.isolate,
                                                .repair = LIMN_REPAIR_ALL,
                                                .non_manifold = LIMN_NON_MANIFOLD_SPLIT,
