@@ -144,36 +144,6 @@ static void release_source(limni_context *context, limni_source *source) {
     limni_release(context, source->tags.holes);
 }
 
-/// Says what LIMN_ISOLATE_AUTO chose, and why.
-static void note_isolation(limni_context *context, const limni_mesh *mesh, bool isolated,
-                           const limni_footprint footprints[2]) {
-    const unsigned long long tables = footprints[0].tables;
-    const char *const relation = tables > LIMNI_TABLES_MAX ? "above" : "below";
-    if (footprints[1].total == 0) {
-        limni_note(context,
-                   "%s: not isolated: its tables take %llu bytes, which is %s %u KB, and it cannot "
-                   "be isolated",
-                   mesh->name, tables, relation, LIMNI_TABLES_MAX >> 10);
-        return;
-    }
-    limni_note(
-        context,
-        "%s: %s: its tables would take %llu bytes, which is %s %u KB, or %llu isolated; with "
-        "its patches %llu, or %llu",
-        mesh->name, isolated ? "isolated" : "not isolated", tables, relation,
-        LIMNI_TABLES_MAX >> 10, (unsigned long long)footprints[1].tables,
-        (unsigned long long)footprints[0].total, (unsigned long long)footprints[1].total);
-}
-
-/// Settles what LIMN_ISOLATE_AUTO means for this mesh.
-static limn_bake_status settle_isolation(limni_context *context, const limni_base *base,
-                                         limni_rules *rules, limni_footprint footprints[2]) {
-    if (rules->isolate != LIMN_ISOLATE_AUTO) return LIMN_BAKE_OK;
-    LIMNI_TRY(limni_choose_isolation(context, base, rules, footprints, &rules->isolate));
-    note_isolation(context, base->mesh, rules->isolate == LIMN_ISOLATE_ALWAYS, footprints);
-    return LIMN_BAKE_OK;
-}
-
 static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     limni_context *const context = &baker->context;
     source->name = copy_name(context, source->name ? source->name : "mesh");
@@ -195,7 +165,7 @@ static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     limni_footprint footprints[2] = {0};
     limni_base base;
     LIMNI_TRY(limni_base_begin(context, &mesh, &rules, &base));
-    LIMNI_TRY(settle_isolation(context, &base, &rules, footprints));
+    LIMNI_TRY(limni_choose_isolation(context, &base, &rules, footprints));
     limni_channel *channels;
     LIMNI_TRY(limni_channels_begin(context, source, &base, &rules, &channels));
     limni_patches *const patches = &baker->meshes[baker->mesh_count];

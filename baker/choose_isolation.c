@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "choose_isolation.h"
 
+#include "records.h"
 #include "sizes.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /// What the file would take.
@@ -10,18 +12,11 @@ static limn_bake_status measure(limni_context *context, const limni_classes *cla
                                 const limni_classes *pieces, const limni_patches *patches,
                                 limni_footprint *footprint) {
     const limn_file_mesh *const record = &patches->record;
-    limn_file_class *const class_records =
-        limni_allocate(context, classes->count, sizeof *class_records);
-    limn_file_piece *const piece_records =
-        limni_allocate(context, pieces->count, sizeof *piece_records);
-    if (!class_records || !piece_records) return LIMN_BAKE_MEMORY;
-    for (uint32_t c = 0; c < classes->count; c++)
-        class_records[c] = limni_class_record(&classes->items[c]);
-    for (uint32_t p = 0; p < pieces->count; p++)
-        piece_records[p] = limni_piece_record(&pieces->items[p]);
-    const limn_pack pack = {.classes = class_records,
+    limni_records records;
+    LIMNI_TRY(limni_records_make(context, classes, pieces, &records));
+    const limn_pack pack = {.classes = records.classes,
                             .class_count = classes->count,
-                            .pieces = piece_records,
+                            .pieces = records.pieces,
                             .piece_count = pieces->count};
     const limn_mesh mesh = {.domain = limn_domain_get((limn_domain_kind)record->domain),
                             .control_count = record->control_count,
@@ -29,10 +24,13 @@ static limn_bake_status measure(limni_context *context, const limni_classes *cla
                             .patch_count = record->patch_count,
                             .run_count = record->run_count,
                             .runs = patches->runs,
-                            .classes = class_records,
+                            .classes = records.classes,
+                            .pieces = records.pieces,
+                            .columns = records.columns,
                             .stencils = patches->stencils.offsets};
     footprint->tables = limni_tables_size(&pack) + limni_columns_size(&pack);
     footprint->total = footprint->tables + limni_patches_size(&mesh) + limni_points_size(&mesh);
+    limni_cost_count(&pack, &mesh, &footprint->cost);
     return LIMN_BAKE_OK;
 }
 
@@ -45,10 +43,8 @@ static limn_bake_status try_bake(limni_context *context, const limni_base *base,
     return measure(context, &classes, &pieces, &patches, footprint);
 }
 
-limn_bake_status limni_choose_isolation(limni_context *context, const limni_base *base,
-                                        const limni_rules *rules, limni_footprint footprints[2],
-                                        limn_isolate *isolate) {
-    bool isolated = false;
+static limn_bake_status try_both(limni_context *context, const limni_base *base,
+                                 const limni_rules *rules, limni_footprint footprints[2]) {
     for (int way = 0; way < 2; way++) {
         limni_context scratch = {.desc = context->desc}; // all of the trial goes with it
         scratch.desc.progress = NULL;
@@ -59,9 +55,67 @@ limn_bake_status limni_choose_isolation(limni_context *context, const limni_base
         if (!too_large) memcpy(context->error, scratch.error, sizeof context->error);
         limni_release_all(&scratch);
         if (!too_large) LIMNI_TRY(status);
-        isolated = status == LIMN_BAKE_OK && footprints[0].tables > LIMNI_TABLES_MAX &&
-                   footprints[1].tables < footprints[0].tables;
     }
-    *isolate = isolated ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER;
+    return LIMN_BAKE_OK;
+}
+
+/// How isolation compares, and what follows.
+typedef struct choice {
+    bool possible, large;            ///< whether it can be done, and the tables are worth it
+    double byte_factor, time_factor; ///< isolated to not isolated
+    bool isolated;
+} choice;
+
+static choice choose(const limni_footprint footprints[2]) {
+    double times[2];
+    for (int way = 0; way < 2; way++)
+        times[way] = (double)limni_cost_frame(&footprints[way].cost, LIMNI_COST_LEVEL);
+    choice c = {.possible = footprints[1].total > 0,
+                .large = footprints[0].tables > LIMNI_TABLES_MAX,
+                .byte_factor = (double)footprints[1].total / (double)footprints[0].total,
+                .time_factor = times[1] / times[0]};
+    c.isolated = c.possible && c.large && c.byte_factor * c.time_factor < 1;
+    return c;
+}
+
+static void explain(const choice *c, char *reason, size_t size) {
+    if (!c->possible) {
+        snprintf(reason, size, "it cannot be");
+    } else if (!c->large) {
+        snprintf(reason, size, "its tables take at most %u KB", LIMNI_TABLES_MAX >> 10);
+    } else {
+        snprintf(reason, size, "%.2f times the bytes in %.2f times the time", c->byte_factor,
+                 c->time_factor);
+    }
+}
+
+/// As text.
+static void describe(const limni_footprint *footprint, uint32_t patch_count, char *text,
+                     size_t size) {
+    snprintf(
+        text, size, "%llu bytes, of which %llu are tables, and %.1f ns per face at level %d",
+        (unsigned long long)footprint->total, (unsigned long long)footprint->tables,
+        limni_cost_per_patch(limni_cost_frame(&footprint->cost, LIMNI_COST_LEVEL), patch_count),
+        LIMNI_COST_LEVEL);
+}
+
+static void note_choice(limni_context *context, const limni_mesh *mesh,
+                        const limni_footprint footprints[2], const choice *c) {
+    const uint32_t patch_count = mesh->face_count - mesh->hole_count;
+    char reason[64], ways[2][128];
+    explain(c, reason, sizeof reason);
+    for (int way = 0; way < 2; way++)
+        describe(&footprints[way], patch_count, ways[way], sizeof ways[way]);
+    limni_note(context, "%s: %s: %s: %s%s%s", mesh->name, c->isolated ? "isolated" : "not isolated",
+               reason, ways[0], c->possible ? "; isolated " : "", c->possible ? ways[1] : "");
+}
+
+limn_bake_status limni_choose_isolation(limni_context *context, const limni_base *base,
+                                        limni_rules *rules, limni_footprint footprints[2]) {
+    if (rules->isolate != LIMN_ISOLATE_AUTO) return LIMN_BAKE_OK;
+    LIMNI_TRY(try_both(context, base, rules, footprints));
+    const choice c = choose(footprints);
+    note_choice(context, base->mesh, footprints, &c);
+    rules->isolate = c.isolated ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER;
     return LIMN_BAKE_OK;
 }

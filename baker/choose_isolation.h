@@ -4,16 +4,13 @@
 
 #include "patches.h"
 
-/// Half of what a core of a console has as its second cache. Larger tables compete with the points
-/// and vertices of a frame; smaller ones stay there, and patches with one table are quicker.
-#define LIMNI_TABLES_MAX (256u << 10)
-
-/// Bakes the mesh both ways, without measuring errors, and decides (docs/design.md, "Isolation").
+/// Settles what LIMN_ISOLATE_AUTO means for a mesh, with a note that says why: bakes it both ways,
+/// without measuring errors, and decides (docs/design.md, "Isolation"). Other rules stay as they
+/// are.
 ///
+/// rules       in and out: isolate becomes LIMN_ISOLATE_NEVER or LIMN_ISOLATE_ALWAYS
 /// footprints  out: not isolated, isolated; 0 where the mesh is too large for that
-/// isolate     out: LIMN_ISOLATE_NEVER or LIMN_ISOLATE_ALWAYS
 limn_bake_status limni_choose_isolation(limni_context *context, const limni_base *base,
-                                        const limni_rules *rules, limni_footprint footprints[2],
-                                        limn_isolate *isolate);
+                                        limni_rules *rules, limni_footprint footprints[2]);
 
 #endif

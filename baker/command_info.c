@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "../runtime/edge_error.h"
 #include "command.h"
+#include "cost.h"
 #include "info_character.h"
 #include "limn/bake.h"
 #include "limn/format.h"
@@ -22,9 +23,10 @@ static const char help[] =
     "Keys of the JSON:\n"
     "  file           version, size, table_size, columns_size, class_count, piece_count, bake\n"
     "  meshes[]       name, faces, control_points, patches, patch_size, bytes_per_face, points,\n"
-    "                 points_size, normals_size, class_count, edge_errors, influences,\n"
-    "                 morph_targets[], materials[].{material,patches}, channels[].{name,kind,\n"
-    "                 components,face_varying,values,points,patch_size,runs}\n"
+    "                 points_size, normals_size, class_count, ns_per_face[],\n"
+    "                 points_ns_per_face, edge_errors[], influences, morph_targets[],\n"
+    "                 materials[].{material,patches}, channels[].{name,kind,components,\n"
+    "                 face_varying,values,points,patch_size,runs}\n"
     "  classes[]      control_points, pairs, table_size, use_count, valences, boundary_corners\n"
     "  joints[]       name, parent\n"
     "  clips[]        name, duration, tracks\n"
@@ -36,6 +38,9 @@ static const char help[] =
     "  points         control points, in isolated meshes with those of level 1; points_size is\n"
     "                 what the latter and their stencils take. Classes are then made of pieces,\n"
     "                 which have the tables, and columns_size says how\n"
+    "  ns_per_face    what positions take at levels 0 to 4; points_ns_per_face: what the points\n"
+    "                 of level 1 take once a frame. Counted, not measured: ratios are what to\n"
+    "                 trust (docs/performance.md, Counted time)\n"
     "  edge_errors    how far levels 0 to 3 are off the limit surface around an edge, in lengths\n"
     "                 of the edge: the medians of a mesh\n"
     "  channels       texture coordinates or colours: values are their control points, patches\n"
@@ -165,6 +170,18 @@ static json_t *describe_channels(const limn_pack *pack, const limn_mesh *mesh) {
     return channels;
 }
 
+static void describe_cost(const limn_pack *pack, const limn_mesh *mesh, json_t *object) {
+    limni_cost cost;
+    json_t *const levels = json_array();
+    limni_cost_count(pack, mesh, &cost);
+    for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++)
+        json_array_append_new(
+            levels, json_real(limni_cost_per_patch(cost.levels[level], mesh->patch_count)));
+    json_object_set_new(object, "ns_per_face", levels);
+    json_object_set_new(object, "points_ns_per_face",
+                        json_real(limni_cost_per_patch(cost.points, mesh->patch_count)));
+}
+
 static json_t *describe_mesh(const limn_pack *pack, const limn_mesh *mesh) {
     json_t *const object = json_object();
     const uint64_t size = limni_patches_size(mesh);
@@ -179,6 +196,7 @@ static json_t *describe_mesh(const limn_pack *pack, const limn_mesh *mesh) {
     json_object_set_new(object, "points_size", json_size(limni_points_size(mesh)));
     json_object_set_new(object, "normals_size", json_size(limni_normals_size(mesh)));
     json_object_set_new(object, "class_count", json_integer(count_classes(mesh)));
+    describe_cost(pack, mesh, object);
     double medians[LIMN_LEVEL_MAX];
     json_t *const errors = json_array();
     find_medians(mesh, medians);
@@ -238,6 +256,21 @@ static void print_class(const limn_pack *pack, uint32_t class_index) {
            (unsigned long long)table_size(class), (unsigned long long)use_count(pack, class_index));
 }
 
+static void print_costs(const limn_pack *pack) {
+    printf("\n%-24s %10s %10s %10s %10s %10s %10s\n", "mesh, ns per face", "level 0", "level 1",
+           "level 2", "level 3", "level 4", "points");
+    for (uint32_t m = 0; m < pack->mesh_count; m++) {
+        const limn_mesh mesh = limn_pack_mesh(pack, m);
+        limni_cost cost;
+        limni_cost_count(pack, &mesh, &cost);
+        printf("%-24s", mesh.name);
+        for (uint32_t level = 0; level < LIMN_LEVEL_COUNT; level++)
+            printf(" %10.1f", limni_cost_per_patch(cost.levels[level], mesh.patch_count));
+        printf(" %10.1f\n", limni_cost_per_patch(cost.points, mesh.patch_count));
+    }
+    printf("(of positions; counted, not measured)\n");
+}
+
 static void print_errors(const limn_pack *pack) {
     printf("\n%-24s %10s %10s %10s %10s\n", "mesh, median error", "level 0", "level 1", "level 2",
            "level 3");
@@ -288,6 +321,7 @@ static void print_text(const char *path, const limn_pack *pack) {
                (unsigned long long)limni_points_size(&mesh), count_classes(&mesh));
     }
     print_channels(pack);
+    print_costs(pack);
     print_errors(pack);
     limni_print_character(pack);
     printf("\n%6s  %-14s %14s %10s %10s\n", "class", "valences", "control points", "bytes",

@@ -6,12 +6,14 @@
 #include "channel.h"
 #include "classes.h"
 #include "control_normals.h"
+#include "cost.h"
 #include "rig.h"
 
-/// Bytes of a mesh baked alone, without control points and their normals.
+/// What a mesh takes, baked alone; bytes without control points and their normals.
 typedef struct limni_footprint {
     uint64_t tables; ///< with what classes in pieces have in their place
     uint64_t total;  ///< with patches, and points
+    limni_cost cost;
 } limni_footprint;
 
 typedef struct limni_patches {

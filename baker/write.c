@@ -9,6 +9,7 @@
 #include "../runtime/character.h"
 #include "../runtime/checksum.h"
 #include "limn/limn.h"
+#include "records.h"
 #include "scheme.h"
 
 #include <stdio.h>
@@ -150,72 +151,34 @@ static void list_character(const limni_character *character, part *parts, uint32
     }
 }
 
-static uint64_t align(uint64_t offset) {
-    return (offset + LIMN_FORMAT_ALIGNMENT - 1) / LIMN_FORMAT_ALIGNMENT * LIMN_FORMAT_ALIGNMENT;
-}
-
 /// The chunks that meshes share.
 typedef struct shared {
     const limni_classes *classes, *pieces;
-    limn_file_class *class_records;
-    limn_file_piece *piece_records;
-    uint16_t *columns;
-    uint64_t tables_size, columns_size;
+    limni_records records;
 } shared;
-
-static limn_bake_status make_records(limni_context *context, shared *s) {
-    s->class_records = limni_allocate_zeroed(context, s->classes->count, sizeof *s->class_records);
-    s->piece_records = limni_allocate_zeroed(context, s->pieces->count, sizeof *s->piece_records);
-    if (!s->class_records || !s->piece_records) return LIMN_BAKE_MEMORY;
-    for (uint32_t c = 0; c < s->classes->count; c++) {
-        const limni_class *const class = &s->classes->items[c];
-        uint64_t *const size = class->parts ? &s->columns_size : &s->tables_size;
-        s->class_records[c] = limni_class_record(class);
-        s->class_records[c].table_offset = *size;
-        *size +=
-            class->parts ? limni_class_parts_size(class) : align(limni_class_table_size(class));
-    }
-    for (uint32_t p = 0; p < s->pieces->count; p++) {
-        s->piece_records[p] = limni_piece_record(&s->pieces->items[p]);
-        s->piece_records[p].table_offset = s->tables_size;
-        s->tables_size += align(limni_class_table_size(&s->pieces->items[p]));
-    }
-    return LIMN_BAKE_OK;
-}
-
-static limn_bake_status make_columns(limni_context *context, shared *s) {
-    s->columns = limni_allocate(context, (size_t)s->columns_size, 1);
-    if (!s->columns) return LIMN_BAKE_MEMORY;
-    for (uint32_t c = 0; c < s->classes->count; c++) {
-        const limni_class *const class = &s->classes->items[c];
-        if (class->parts)
-            memcpy((unsigned char *)s->columns + s->class_records[c].table_offset, class->parts,
-                   limni_class_parts_size(class));
-    }
-    return LIMN_BAKE_OK;
-}
 
 static void list_shared(const shared *s, const char *info, part *parts, uint32_t *count) {
     const uint32_t none = LIMN_FORMAT_NO_MESH;
     parts[(*count)++] = (part){LIMN_CHUNK_INFO, none, info, strlen(info) + 1};
-    parts[(*count)++] = (part){LIMN_CHUNK_CLASSES, none, s->class_records,
-                               s->classes->count * sizeof *s->class_records};
-    parts[(*count)++] = (part){LIMN_CHUNK_TABLES, none, NULL, s->tables_size};
+    parts[(*count)++] = (part){LIMN_CHUNK_CLASSES, none, s->records.classes,
+                               s->classes->count * sizeof *s->records.classes};
+    parts[(*count)++] = (part){LIMN_CHUNK_TABLES, none, NULL, s->records.tables_size};
     if (s->pieces->count == 0) return;
-    parts[(*count)++] = (part){LIMN_CHUNK_PIECES, none, s->piece_records,
-                               s->pieces->count * sizeof *s->piece_records};
-    parts[(*count)++] = (part){LIMN_CHUNK_COLUMNS, none, s->columns, s->columns_size};
+    parts[(*count)++] = (part){LIMN_CHUNK_PIECES, none, s->records.pieces,
+                               s->pieces->count * sizeof *s->records.pieces};
+    parts[(*count)++] =
+        (part){LIMN_CHUNK_COLUMNS, none, s->records.columns, s->records.columns_size};
 }
 
 static void copy_tables(const shared *s, unsigned char *dst) {
     for (uint32_t c = 0; c < s->classes->count; c++) {
         const limni_class *const class = &s->classes->items[c];
         if (class->table)
-            memcpy(dst + s->class_records[c].table_offset, class->table,
+            memcpy(dst + s->records.classes[c].table_offset, class->table,
                    limni_class_table_size(class));
     }
     for (uint32_t p = 0; p < s->pieces->count; p++)
-        memcpy(dst + s->piece_records[p].table_offset, s->pieces->items[p].table,
+        memcpy(dst + s->records.pieces[p].table_offset, s->pieces->items[p].table,
                limni_class_table_size(&s->pieces->items[p]));
 }
 
@@ -229,7 +192,7 @@ static uint32_t flags_of(const part *p) {
 static uint64_t place_parts(const part *parts, uint32_t count, limn_file_chunk *directory) {
     uint64_t offset = sizeof(limn_file_header) + (uint64_t)count * sizeof *directory;
     for (uint32_t p = 0; p < count; p++) {
-        offset = align(offset);
+        offset = limni_align(offset);
         directory[p] = (limn_file_chunk){
             .kind = parts[p].kind,
             .mesh = parts[p].mesh,
@@ -306,20 +269,24 @@ static const char *creasing_name(const limni_patches *meshes, uint32_t mesh_coun
     return name;
 }
 
-/// Whether meshes are isolated, unless none is; and where that was chosen, the bytes both ways.
+/// Whether meshes are isolated, unless none is; and where that was chosen, the bytes and the time of
+/// both ways.
 static void describe_isolation(const limni_rules *rules, const limni_patches *meshes,
                                uint32_t mesh_count, char *text, size_t size) {
-    uint64_t totals[2] = {0};
+    unsigned long long bytes[2] = {0}, picoseconds[2] = {0};
     uint32_t count = 0;
     for (uint32_t m = 0; m < mesh_count; m++) {
         count += meshes[m].rules.isolate == LIMN_ISOLATE_ALWAYS;
-        totals[0] += meshes[m].footprints[0].total;
-        totals[1] += meshes[m].footprints[1].total;
+        for (int way = 0; way < 2; way++) {
+            const limni_footprint *const footprint = &meshes[m].footprints[way];
+            bytes[way] += footprint->total;
+            picoseconds[way] += limni_cost_frame(&footprint->cost, LIMNI_COST_LEVEL);
+        }
     }
     const char *const isolated = count == 0 ? "0" : count == mesh_count ? "1" : "mixed";
-    if (rules->isolate == LIMN_ISOLATE_AUTO && totals[0]) {
-        snprintf(text, size, " isolate=%s bytes=%llu isolated-bytes=%llu", isolated,
-                 (unsigned long long)totals[0], (unsigned long long)totals[1]);
+    if (rules->isolate == LIMN_ISOLATE_AUTO && bytes[0]) {
+        snprintf(text, size, " isolate=%s bytes=%llu isolated-bytes=%llu ns=%llu isolated-ns=%llu",
+                 isolated, bytes[0], bytes[1], picoseconds[0] / 1000, picoseconds[1] / 1000);
     } else if (rules->isolate == LIMN_ISOLATE_AUTO) { // the butterfly, for which nothing is chosen
         snprintf(text, size, " isolate=0");
     } else {
@@ -342,7 +309,7 @@ static void describe(const limni_rules *rules, const limni_patches *meshes, uint
         strcpy(creases, " creases=lomont");
     else if (creasing)
         snprintf(creases, sizeof creases, " creases=opensubdiv creasing=%s", creasing);
-    char isolate[96];
+    char isolate[160];
     describe_isolation(rules, meshes, mesh_count, isolate, sizeof isolate);
     char own[32] = ""; // what only this scheme has
     if (rules->scheme == LIMN_SCHEME_BUTTERFLY)
@@ -368,11 +335,10 @@ limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rul
     part *const parts = limni_allocate(context, room, sizeof *parts);
     limn_file_chunk *const directory = limni_allocate(context, room, sizeof *directory);
     shared all = {.classes = classes, .pieces = pieces};
-    LIMNI_TRY(make_records(context, &all));
-    LIMNI_TRY(make_columns(context, &all));
+    LIMNI_TRY(limni_records_make(context, classes, pieces, &all.records));
     if (!parts || !directory) return LIMN_BAKE_MEMORY;
 
-    char info[256];
+    char info[384];
     uint32_t part_count = 0;
     describe(rules, meshes, mesh_count, info, sizeof info);
     list_shared(&all, info, parts, &part_count);
@@ -400,8 +366,6 @@ limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rul
                           "defect in the baker: it made a bad file: %s", limn_result_text(result));
     limni_release(context, parts);
     limni_release(context, directory);
-    limni_release(context, all.class_records);
-    limni_release(context, all.piece_records);
-    limni_release(context, all.columns);
+    limni_records_release(context, &all.records);
     return LIMN_BAKE_OK;
 }

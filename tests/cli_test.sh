@@ -528,6 +528,11 @@ says stdout '88 faces, 1 classes'
 
 # ---- Isolation
 
+# What a face takes at a level, with the points of level 1, by the last `info --json`.
+json_ns() {
+    awk -v level="$1" '/"ns_per_face"/ { at = NR + 1 + level } NR == at { ns = $1 } /"points_ns_per_face"/ { print ns + $2 }' stdout.txt
+}
+
 refuses 2 "there is no face-varying mode 'corner'" bake "$torus" -o new.limn --face-varying corner
 refuses 2 'with --scheme none, --face-varying is all' bake "$torus" -o new.limn --scheme none --face-varying none
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nf 1/1 2/2 3/3\n' >uv.obj
@@ -546,21 +551,38 @@ works bake -q "$sail" -o isolated.limn --isolate 1
 works info isolated.limn
 says stdout '^baked with .* isolate=1$'
 says stdout 'which are made of [0-9]* pieces'
-notes 'sail: isolated: its tables would take [0-9]* bytes, which is above 256 KB, or [0-9]* isolated; ' bake "$sail" "$torus" -o chosen.limn --isolate auto
-says stderr 'torus32: not isolated: its tables would take [0-9]* bytes, which is below 256 KB, or [0-9]* isolated; '
+way='[0-9]* bytes, of which [0-9]* are tables, and [0-9.]* ns per face at level 3'
+notes "sail: isolated: 0\.[0-9]* times the bytes in 1\.[0-9]* times the time: $way; isolated $way" \
+    bake "$sail" "$torus" -o chosen.limn --isolate auto
+says stderr "torus32: not isolated: its tables take at most 256 KB: $way; isolated $way"
 works info chosen.limn
-says stdout 'isolate=mixed bytes=[0-9]* isolated-bytes=[0-9]*$'
+says stdout 'isolate=mixed bytes=[0-9]* isolated-bytes=[0-9]* ns=[0-9]* isolated-ns=[0-9]*$'
+notes "sail: not isolated: 0\.[0-9]* times the bytes in 1\.[0-9]* times the time: $way; isolated $way" \
+    bake "$sail" -o alone.limn --isolate auto --scheme catmark
 notes 'sail: isolated: ' bake "$sail" -o alone.limn --isolate auto
 works info alone.limn --json
 bytes=0
 for key in table_size columns_size patch_size points_size; do bytes=$((bytes + $(json $key))); done
-says stdout " isolated-bytes=$bytes\""
+says stdout " isolated-bytes=$bytes "
+expect "time of an isolated mesh" "$(sed -n 's/.* isolated-ns=\([0-9]*\).*/\1/p' stdout.txt)" "$(json_ns 3 | awk '{ print int($1 * 88) }')"
 notes 'torus32: not isolated: ' bake "$torus" -o alone.limn --isolate auto
 works info --json alone.limn
 expect "points of a mesh that is not isolated" "$(json points)" 16
 notes 'torus32.obj: not isolated: with the butterfly' bake "$torus" -o alone.limn --isolate auto --scheme butterfly
 works info alone.limn
 says stdout ' normals=none isolate=0$'
+# Counted by hand: a torus of one class, 12 control points of which 11 are in mirrored sums, 32 patches. A patch, its
+# rows, its blocks of 8 rows (at level 4, 64 rows and 48 pairs), and a 32nd of a change of class; isolated, four pieces,
+# of which level 0 takes three: 18 points are looked at for each and 12 summed; and 2 points of 9.5 terms.
+counted() {
+    works bake -q "$torus" -o counted.limn --isolate "$1"
+    works info --json counted.limn
+    expect "ns at level $2" "$(json_ns "$2" | awk '{ printf "%.2f", $1 }')" "$(awk "BEGIN { printf \"%.2f\", $3 }")"
+}
+counted 0 0 '18 + 3 * 0.35 + 12 * 0.5 + 80 / 32'
+counted 0 4 '18 + 153 * 0.35 + (12 * 8 + 11 * 6) * 0.5 + 80 / 32'
+counted 1 0 '18 + 3 * 0.35 + 3 * (18 * 1.25 + 12 * 0.5) + 80 / 32 + 2 * 0.75 + 9.5 * 0.5'
+counted 1 4 '18 + 153 * 0.35 + 4 * 18 * 1.25 + (3 * 5 + 6) * 12 * 0.5 + 80 / 32 + 2 * 0.75 + 9.5 * 0.5'
 # Tables of tens of kilobytes for any mesh without creases, and few more for several.
 tables_below() {
     limit=$1
@@ -595,9 +617,10 @@ works info several.limn
 for name in torus32 sail cube; do says stdout "^$name "; done
 says stdout 'scheme=loop weights=loop boundary=edge-only'
 says stdout '^torus32  *0\.[0-9]*  *0\.[0-9]*  *0\.[0-9]*  *0\.[0-9]*$'
+says stdout '^torus32  *[0-9.]*  *[0-9.]*  *[0-9.]*  *[0-9.]*  *[0-9.]*  *0\.0$'
 works info --json several.limn
 for key in file version size table_size columns_size class_count piece_count meshes name faces control_points patches points points_size patch_size \
-    bytes_per_face edge_errors classes use_count; do
+    bytes_per_face ns_per_face points_ns_per_face edge_errors classes use_count; do
     says stdout "^ *\"$key\": "
 done
 expect "version" "$(json version)" 6

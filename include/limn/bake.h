@@ -82,8 +82,9 @@ typedef enum limn_normals {
 typedef enum limn_isolate {
     LIMN_ISOLATE_NEVER,  ///< a table for every kind of surroundings: the fewest steps for a patch
     LIMN_ISOLATE_ALWAYS, ///< small tables
-    LIMN_ISOLATE_AUTO    ///< for each mesh whose tables would take more than 256 KB, never with the
-                         ///< butterfly; says why
+    LIMN_ISOLATE_AUTO    ///< for each mesh whose tables would take more than 256 KB, if its bytes
+                         ///< times its time become less; never with the butterfly. Says why. The
+                         ///< time is counted, so the same mesh gives the same file everywhere
 } limn_isolate;
 
 /// Where a channel is interpolated linearly, as OpenSubdiv has it for face-varying data. A corner is a
