@@ -47,7 +47,8 @@ bake() {
 }
 
 # Bakes the meshes in turn: as they are; mended with the other options, isolated; as polygons, by Catmull-Clark; and those of
-# the repository together, in these ways, with Lomont's creases, and by the butterfly. File names are relative, so that the builds say the same words.
+# the repository together, in these ways, isolated or not as the baker chooses, with Lomont's creases, and by the butterfly.
+# File names are relative, so that the builds say the same words.
 bake_all() {
     build=$1
     shift
@@ -67,7 +68,7 @@ bake_all() {
     set -- "$source_folder"/assets/*.obj "$source_folder"/assets/*.off
     bake "$build" dense-all --normals exact "$@"
     bake "$build" isolated-all --normals exact --weights warren --isolate 1 "$@"
-    bake "$build" polygons-all --normals exact --scheme catmark "$@"
+    bake "$build" chosen-all --normals exact --scheme catmark --isolate auto "$@"
     bake "$build" butterfly-all --normals exact --scheme butterfly --tension 0.02 --isolate 1 "$@"
     bake "$build" lomont --creases lomont --normals exact "$source_folder"/assets/*.obj "$source_folder"/docs/box.obj
     bake "$build" character --images "$source_folder/tests/fuzz/corpus/gltf/character.glb"
