@@ -53,9 +53,9 @@ for mug in "$work" "$assets"; do
     draw artists_mug_$name.png --eye -2.2,2,3 --fov 20 --viewport 300x300
 done
 bake "$assets/imp_quads.obj" --scheme catmark --normals exact
-draw artists_quads.png --size 300x300 --level 2 --wireframe
+draw artists_quads.png --size 300x300 --level 1 --wireframe --colour classes
 bake "$assets/imp_quads.obj" --normals exact
-draw artists_cut.png --size 300x300 --level 2 --wireframe
+draw artists_cut.png --size 300x300 --level 1 --wireframe --colour classes
 for mode in corners-only all; do
     bake "$assets/imp.gltf" --normals exact --face-varying $mode
     draw artists_uv_$mode.png --colour uv --eye 2.2,1.9,2.2 --target 0,1.6,0 --fov 30 --viewport 300x240

@@ -47,7 +47,7 @@ foreach(page IN LISTS pages)
     string(REGEX MATCHALL "\n@link [^)]*" links "${text}")
     list(TRANSFORM links REPLACE "\n@link " "")
     foreach(link IN LISTS links)
-        if(NOT link MATCHES "^https?:")
+        if(NOT link MATCHES "^https?:|\\.html$") # Doxygen makes .html
             check_link("${page}" "${link}")
         endif()
     endforeach()
