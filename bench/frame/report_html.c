@@ -224,7 +224,8 @@ static void write_head(FILE *page, const frame_result *result) {
     fprintf(page, "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>Limn: ");
     write_text(page, host->script->name);
     fprintf(page, "</title>\n<style>\n"
-                  "body { font: 14px sans-serif; max-width: 64em; margin: 2em auto; color: #222 }\n"
+                  "body { font: 14px sans-serif; max-width: 64em; margin: 2em auto; padding: 0 "
+                  "1em; color: #222 }\n"
                   "svg { width: 100%% }\n"
                   "text { font: 11px sans-serif; fill: #222 }\n"
                   "text { paint-order: stroke; stroke: #fff; stroke-width: 3px }\n"
