@@ -17,6 +17,7 @@ static const char help[] =
     "  evaluate   positions and unit normals, as floats\n"
     "  light      what colours add to that\n"
     "  pack       what packed formats add to that, which may be less than nothing\n"
+    "  draw       drawing, where there is --draw\n"
     "  frame      all of it, as it is done: skin to plan, and one evaluation with light and "
     "packing\n\n"
     "Light and packing are part of evaluation, which is timed three times in each frame, in\n"
