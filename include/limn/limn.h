@@ -603,11 +603,11 @@ typedef struct limn_view {
 
 /// A view from `eye` towards `target`.
 ///
-/// target        not the eye
-/// up            any direction that is not the line of sight
-/// fov           vertical angle of view in radians, between 0 and pi
-/// width,height  of the viewport in pixels
-/// near_plane    distances of the planes that bound what is seen, 0 < near_plane < far_plane
+/// target                 not the eye
+/// up                     any direction that is not the line of sight
+/// fov                    vertical angle of view in radians, between 0 and pi
+/// width, height          of the viewport in pixels
+/// near_plane, far_plane  distances of the planes that bound it, 0 < near_plane < far_plane
 limn_view limn_view_perspective(const float eye[3], const float target[3], const float up[3],
                                 float fov, float width, float height, float near_plane,
                                 float far_plane);
