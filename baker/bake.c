@@ -165,7 +165,7 @@ static limn_bake_status add_source(limn_baker *baker, limni_source *source) {
     limni_footprint footprints[2] = {0};
     limni_base base;
     LIMNI_TRY(limni_base_begin(context, &mesh, &rules, &base));
-    LIMNI_TRY(limni_choose_isolation(context, &base, &rules, footprints));
+    LIMNI_TRY(limni_choose_isolation(context, source, &base, &rules, footprints));
     limni_channel *channels;
     LIMNI_TRY(limni_channels_begin(context, source, &base, &rules, &channels));
     limni_patches *const patches = &baker->meshes[baker->mesh_count];

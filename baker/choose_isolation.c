@@ -7,49 +7,62 @@
 #include <stdio.h>
 #include <string.h>
 
-/// What the file would take.
+static limn_mesh view(const limni_patches *patches, const limni_records *records) {
+    const limn_file_mesh *const record = &patches->record;
+    return (limn_mesh){.domain = limn_domain_get((limn_domain_kind)record->domain),
+                       .control_count = record->control_count,
+                       .point_count = record->point_count,
+                       .patch_count = record->patch_count,
+                       .run_count = record->run_count,
+                       .runs = patches->runs,
+                       .classes = records->classes,
+                       .pieces = records->pieces,
+                       .columns = records->columns,
+                       .stencils = patches->stencils.offsets};
+}
+
+/// What the file would take, channels included; and the time of positions alone.
 static limn_bake_status measure(limni_context *context, const limni_classes *classes,
                                 const limni_classes *pieces, const limni_patches *patches,
                                 limni_footprint *footprint) {
-    const limn_file_mesh *const record = &patches->record;
     limni_records records;
     LIMNI_TRY(limni_records_make(context, classes, pieces, &records));
     const limn_pack pack = {.classes = records.classes,
                             .class_count = classes->count,
                             .pieces = records.pieces,
                             .piece_count = pieces->count};
-    const limn_mesh mesh = {.domain = limn_domain_get((limn_domain_kind)record->domain),
-                            .control_count = record->control_count,
-                            .point_count = record->point_count,
-                            .patch_count = record->patch_count,
-                            .run_count = record->run_count,
-                            .runs = patches->runs,
-                            .classes = records.classes,
-                            .pieces = records.pieces,
-                            .columns = records.columns,
-                            .stencils = patches->stencils.offsets};
+    const limn_mesh mesh = view(patches, &records);
     footprint->tables = limni_tables_size(&pack) + limni_columns_size(&pack);
     footprint->total = footprint->tables + limni_patches_size(&mesh) + limni_points_size(&mesh);
+    for (uint32_t c = 0; c < patches->record.channel_count; c++) {
+        const limn_mesh channel = view(&patches->channels[c], &records);
+        footprint->total += limni_lists_size(&channel) + limni_points_size(&channel);
+    }
     limni_cost_count(&pack, &mesh, &footprint->cost);
     return LIMN_BAKE_OK;
 }
 
-static limn_bake_status try_bake(limni_context *context, const limni_base *base, limni_rules rules,
-                                 limn_isolate isolate, limni_footprint *footprint) {
+static limn_bake_status try_bake(limni_context *context, const limni_source *source,
+                                 const limni_base *base, limni_rules rules, limn_isolate isolate,
+                                 limni_footprint *footprint) {
     limni_classes classes = {0}, pieces = {0};
+    limni_channel *channels;
     limni_patches patches;
     rules.isolate = isolate;
-    LIMNI_TRY(limni_patches_build(context, base, &rules, NULL, 0, &classes, &pieces, &patches));
+    LIMNI_TRY(limni_channels_begin(context, source, base, &rules, &channels));
+    LIMNI_TRY(limni_patches_build(context, base, &rules, channels, source->channel_count, &classes,
+                                  &pieces, &patches));
     return measure(context, &classes, &pieces, &patches, footprint);
 }
 
-static limn_bake_status try_both(limni_context *context, const limni_base *base,
-                                 const limni_rules *rules, limni_footprint footprints[2]) {
+static limn_bake_status try_both(limni_context *context, const limni_source *source,
+                                 const limni_base *base, const limni_rules *rules,
+                                 limni_footprint footprints[2]) {
     for (int way = 0; way < 2; way++) {
         limni_context scratch = {.desc = context->desc}; // all of the trial goes with it
         scratch.desc.progress = NULL;
         const limn_bake_status status =
-            try_bake(&scratch, base, *rules, way ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER,
+            try_bake(&scratch, source, base, *rules, way ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER,
                      &footprints[way]);
         const bool too_large = way == 1 && status == LIMN_BAKE_BAD_INPUT; // to be isolated
         if (!too_large) memcpy(context->error, scratch.error, sizeof context->error);
@@ -110,10 +123,11 @@ static void note_choice(limni_context *context, const limni_mesh *mesh,
                reason, ways[0], c->possible ? "; isolated " : "", c->possible ? ways[1] : "");
 }
 
-limn_bake_status limni_choose_isolation(limni_context *context, const limni_base *base,
-                                        limni_rules *rules, limni_footprint footprints[2]) {
+limn_bake_status limni_choose_isolation(limni_context *context, const limni_source *source,
+                                        const limni_base *base, limni_rules *rules,
+                                        limni_footprint footprints[2]) {
     if (rules->isolate != LIMN_ISOLATE_AUTO) return LIMN_BAKE_OK;
-    LIMNI_TRY(try_both(context, base, rules, footprints));
+    LIMNI_TRY(try_both(context, source, base, rules, footprints));
     const choice c = choose(footprints);
     note_choice(context, base->mesh, footprints, &c);
     rules->isolate = c.isolated ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER;

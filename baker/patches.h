@@ -13,7 +13,7 @@
 typedef struct limni_footprint {
     uint64_t tables; ///< with what classes in pieces have in their place
     uint64_t total;  ///< with patches, and points
-    limni_cost cost;
+    limni_cost cost; ///< of positions
 } limni_footprint;
 
 typedef struct limni_patches {
