@@ -7,6 +7,8 @@
 #ifndef LIMNI_CONTEXT_H
 #define LIMNI_CONTEXT_H
 
+#include "../runtime/rounding.h"
+
 #include "limn/bake.h"
 
 #ifdef __cplusplus

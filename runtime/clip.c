@@ -8,6 +8,7 @@
 
 #include "chunks.h"
 #include "require.h"
+#include "rounding.h"
 #include "transform.h"
 
 #include <math.h>

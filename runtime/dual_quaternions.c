@@ -4,6 +4,7 @@
  * operations, so that every host gets the same bits.
  */
 #include "require.h"
+#include "rounding.h"
 
 #include "limn/limn.h"
 

@@ -7,6 +7,8 @@
 #ifndef LIMNI_EDGE_ERROR_H
 #define LIMNI_EDGE_ERROR_H
 
+#include "rounding.h"
+
 #include "limn/limn.h"
 
 #include <math.h>

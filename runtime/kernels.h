@@ -10,6 +10,7 @@
 #include "domain.h"
 #include "limn/format.h"
 #include "limn/limn.h"
+#include "rounding.h"
 
 /// LIMNI_INLINE: where a constant argument decides what a function is.
 #if defined(__GNUC__)

@@ -2,6 +2,7 @@
 #include "lod.h"
 #include "mesh.h"
 #include "require.h"
+#include "rounding.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "limn/limn.h"
 #include "require.h"
+#include "rounding.h"
 
 #include <math.h>
 

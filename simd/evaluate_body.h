@@ -11,11 +11,6 @@
 #include "skin_body.h"
 #include "stores.h"
 
-#if defined(__FAST_MATH__)
-#error "fast-math reorders the sums that shared vertices depend on"
-#endif
-LIMN_STATIC_ASSERT(FLT_EVAL_METHOD == 0, "floats must be rounded to float (-mfpmath=sse)");
-
 // ---- Gathering
 
 static inline size_t slot_of(const void *slots, uint32_t slot_size, size_t k) {
