@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "command.h"
 
+#include "limn/format.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -39,7 +41,13 @@ bool limni_pack_file_open(limni_pack_file *file, const char *path) {
     }
     const limn_result result = limn_pack_open(&file->pack, file->blob.bytes, file->blob.size);
     if (result == LIMN_OK) return true;
-    limni_failure("%s: %s", path, limn_result_text(result));
+    if (result == LIMN_ERROR_VERSION) {
+        limni_failure("%s: it has format version %u, and this limn reads %u to %u; bake it again",
+                      path, ((const limn_file_header *)file->blob.bytes)->version,
+                      LIMN_FORMAT_VERSION_OLDEST, LIMN_FORMAT_VERSION);
+    } else {
+        limni_failure("%s: %s", path, limn_result_text(result));
+    }
     limni_blob_file_close(&file->blob);
     return false;
 }

@@ -57,7 +57,8 @@ static limn_result validate_header(const limn_pack *pack) {
     if (pack->blob_size < sizeof *header) return LIMN_ERROR_TRUNCATED;
     if (memcmp(header->magic, LIMN_FORMAT_MAGIC, sizeof header->magic) != 0)
         return LIMN_ERROR_MAGIC;
-    if (header->version != LIMN_FORMAT_VERSION) return LIMN_ERROR_VERSION;
+    if (header->version < LIMN_FORMAT_VERSION_OLDEST || header->version > LIMN_FORMAT_VERSION)
+        return LIMN_ERROR_VERSION;
     if (header->size > pack->blob_size) return LIMN_ERROR_TRUNCATED;
     if (header->size < pack->blob_size) return LIMN_ERROR_SIZE;
 

@@ -27,7 +27,10 @@ extern "C" {
 // The file
 
 #define LIMN_FORMAT_MAGIC "LIMN" ///< the first four bytes
-#define LIMN_FORMAT_VERSION 6u   ///< of files that this version of Limn reads and writes
+#define LIMN_FORMAT_VERSION 6u   ///< what the baker writes
+
+/// The oldest version that is read. Version 6 is the first that later releases keep reading.
+#define LIMN_FORMAT_VERSION_OLDEST 6u
 
 /// Alignment of the blob in memory and of every chunk in the file, in bytes.
 #define LIMN_FORMAT_ALIGNMENT 64u
@@ -150,7 +153,7 @@ extern "C" {
 
 /// What a file begins with.
 typedef struct limn_file_header {
-    char magic[4];     ///< "LIMN"
+    char magic[4];     ///< "LIMN"; this and the version stay where they are in every version
     uint32_t version;  ///< LIMN_FORMAT_VERSION
     uint64_t size;     ///< of the whole file, in bytes
     uint64_t checksum; ///< XXH64 with seed 0 of the bytes from `chunk_count` to the end of the file

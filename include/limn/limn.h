@@ -55,7 +55,7 @@ uint32_t limn_version(void);
     X(LIMN_ERROR_TRUNCATED, "the blob is shorter than the file was; load all of it")               \
     X(LIMN_ERROR_MAGIC, "the blob is not a .limn file")                                            \
     X(LIMN_ERROR_VERSION,                                                                          \
-      "the file has another format version; bake it again with this version's baker")              \
+      "the file has a format version that is not read; bake it again with this version's baker")   \
     X(LIMN_ERROR_SIZE, "the blob is longer than the file says; pass the exact size")               \
     X(LIMN_ERROR_CHECKSUM, "the file is damaged: its checksum does not match")                     \
     X(LIMN_ERROR_CHUNK, "a chunk is missing, repeated, misaligned or reaches outside the file")    \
