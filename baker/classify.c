@@ -303,15 +303,15 @@ static bool is_ruled_out(const limni_mesh *mesh, uint32_t face, uint32_t rotatio
 
 const limni_local_base *limni_classify(limni_classifier *classifier, uint32_t face) {
     const uint32_t corner_count = limni_face_size(classifier->mesh, face);
-    int best = -1;
+    limni_local_base *best = NULL, *tried = &classifier->bases[0];
     for (uint32_t rotation = 0; rotation < corner_count; rotation++) {
         if (is_ruled_out(classifier->mesh, face, rotation)) continue;
-        const int tried = best == 0 ? 1 : 0;
-        build_base(classifier, &classifier->bases[tried], face, rotation);
-        if (best < 0 || compare_keys(&classifier->bases[tried], &classifier->bases[best]) < 0)
-            best = tried;
+        build_base(classifier, tried, face, rotation);
+        if (best && compare_keys(tried, best) >= 0) continue;
+        best = tried;
+        tried = &classifier->bases[best == &classifier->bases[0]];
     }
-    return &classifier->bases[best];
+    return best;
 }
 
 const limni_local_base *limni_local_base_at(limni_classifier *classifier, uint32_t face,

@@ -125,7 +125,7 @@ json_t *limni_json_text(const char *text) {
     if (string) return string;
     char ascii[256];
     size_t length = 0;
-    for (; text[length] && length < sizeof ascii; length++)
+    for (; length < sizeof ascii && text[length]; length++)
         ascii[length] = (unsigned char)text[length] < 0x80 ? text[length] : '?';
     return json_stringn(ascii, length);
 }

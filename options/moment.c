@@ -102,7 +102,7 @@ bool limni_moment_make(limni_moment *moment, const limn_pack *pack, uint32_t fir
     moment->mesh_count = count;
     for (uint32_t m = 0; m < count; m++)
         moment->meshes[m].mesh = limn_pack_mesh(pack, first + m);
-    limn_clip clip;
+    limn_clip clip = {0};
     const bool moving = has_clip(pack, options);
     motion by = {.pack = pack, .clip = moving ? &clip : NULL, .time = options->time};
     return (!moving || find_clip(pack, options, &clip)) &&

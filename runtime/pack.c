@@ -119,9 +119,7 @@ static limn_result validate_pieces(const limn_pack *pack, const limn_file_chunk 
         return LIMN_ERROR_PIECE;
     for (uint32_t p = 0; p < pack->piece_count; p++) {
         const limn_file_piece *const piece = &pack->pieces[p];
-        if (piece->domain >= LIMN_DOMAIN_COUNT ||
-            piece->kind > limni_piece_kind_of(limn_domain_get((limn_domain_kind)piece->domain),
-                                              LIMN_FORMAT_PIECE_COUNT - 1) ||
+        if (piece->domain >= LIMN_DOMAIN_COUNT || piece->kind > LIMNI_PIECE_MIDDLE ||
             piece->control_count > LIMN_FORMAT_CONTROLS_MAX ||
             !are_tables_inside(tables, piece->table_offset, piece->table_count,
                                piece->control_count, limn_file_piece_stride(piece)))

@@ -358,6 +358,14 @@ static void mesh_divided(const blob *file) {
 static void mesh_divided_overflows(const blob *file) {
     record_of(file, STRIP)->divided_count = UINT32_MAX;
 }
+/// Not damage: faces are numbered with 32 bits, and holes have no data.
+static void mesh_holes(const blob *file) {
+    record_of(file, STRIP)->hole_count = UINT32_MAX - record_of(file, STRIP)->patch_count;
+}
+static void mesh_holes_overflow(const blob *file) {
+    mesh_holes(file);
+    record_of(file, STRIP)->hole_count++;
+}
 static void mesh_of_quads(const blob *file) {
     record_of(file, STRIP)->domain = LIMN_DOMAIN_QUAD;
 }
@@ -492,6 +500,8 @@ static const damage damages[] = {
     DAMAGE(mesh_errors, LIMN_ERROR_MESH),
     DAMAGE(mesh_divided, LIMN_ERROR_MESH),
     DAMAGE(mesh_divided_overflows, LIMN_ERROR_MESH),
+    DAMAGE(mesh_holes, LIMN_OK),
+    DAMAGE(mesh_holes_overflow, LIMN_ERROR_MESH),
     DAMAGE(mesh_of_quads, LIMN_ERROR_MESH),
     DAMAGE(mesh_domain, LIMN_ERROR_MESH),
     DAMAGE(control_not_a_number, LIMN_ERROR_CONTROLS),
@@ -635,6 +645,40 @@ static mesh_case creased_tetrahedron(void) {
     return creased;
 }
 
+static void remove_normals(const blob *file) {
+    remove_chunk(file, 0, LIMN_CHUNK_NORMALS);
+    remove_chunk(file, 0, LIMN_CHUNK_RINGS);
+    remove_chunk(file, 0, LIMN_CHUNK_WEIGHTS);
+}
+static void sides_alone(const blob *file) {
+    remove_normals(file);
+    remove_chunk(file, 0, LIMN_CHUNK_CORNERS);
+}
+static void corners_alone(const blob *file) {
+    remove_normals(file);
+    remove_chunk(file, 0, LIMN_CHUNK_SIDES);
+}
+/// Not damage: positions have their creases without.
+static void creases_alone(const blob *file) {
+    sides_alone(file);
+    remove_chunk(file, 0, LIMN_CHUNK_SIDES);
+}
+WITHOUT(normals_without_rings, 0, LIMN_CHUNK_RINGS)
+WITHOUT(normals_without_weights, 0, LIMN_CHUNK_WEIGHTS)
+WITHOUT(normals_without_sides, 0, LIMN_CHUNK_SIDES)
+WITHOUT(normals_without_corners, 0, LIMN_CHUNK_CORNERS)
+
+static const damage crease_damages[] = {
+    DAMAGE(remove_normals, LIMN_ERROR_CHUNK),
+    DAMAGE(sides_alone, LIMN_ERROR_CHUNK),
+    DAMAGE(corners_alone, LIMN_ERROR_CHUNK),
+    DAMAGE(creases_alone, LIMN_OK),
+    DAMAGE(normals_without_rings, LIMN_ERROR_CHUNK),
+    DAMAGE(normals_without_weights, LIMN_ERROR_CHUNK),
+    DAMAGE(normals_without_sides, LIMN_ERROR_CHUNK),
+    DAMAGE(normals_without_corners, LIMN_ERROR_CHUNK),
+};
+
 /// What must be refused of the data for creases.
 static void test_damaged_creases(void) {
     const mesh_case creased = creased_tetrahedron();
@@ -662,6 +706,7 @@ static void test_damaged_creases(void) {
         CHECK_EQUAL(open_result(changed.bytes, changed.size), cases[c].expected);
         free(changed.bytes);
     }
+    check_damages(&file, crease_damages, COUNT(crease_damages));
     check_mended_words(&file);
     free(file.bytes);
 }

@@ -5,6 +5,7 @@
 #include "limn/limn.h"
 
 #include "../baker/patches.h"
+#include "../baker/refine.h"
 #include "check.h"
 #include "coefficients.h"
 
@@ -1017,7 +1018,40 @@ static void test_disagreement(void) {
     limni_release_all(&context);
 }
 
+// ---- Limits
+
+/// Of what is refused nothing but the counts is looked at.
+static void check_limit(uint32_t position_count, uint32_t corner_count, uint32_t crease_count,
+                        const char *expected) {
+    const uint32_t offsets[] = {0, corner_count};
+    limni_context context = {0};
+    limni_source source = {.name = "large",
+                           .position_count = position_count,
+                           .face_count = 1,
+                           .face_offsets = (uint32_t *)(uintptr_t)offsets,
+                           .tags.crease_count = crease_count};
+    limni_mesh mesh = {0};
+    CHECK_EQUAL(limni_mesh_begin(&context, &source, &mesh), LIMN_BAKE_BAD_INPUT);
+    CHECK_TEXT(context.error, expected);
+    limni_release_all(&context);
+}
+
+static void test_limits(void) {
+    const uint32_t more = LIMNI_CORNERS_MAX + 1;
+    check_limit(more, 3, 0, "large: more than 268435456 vertices, or corners of faces");
+    check_limit(3, more, 0, "large: more than 268435456 vertices, or corners of faces");
+    check_limit(3, 3, more, "large: more than 268435456 creases");
+
+    limni_context context = {0};
+    limni_refined refined;
+    const limni_mesh mesh = {.name = "large", .half_edge_count = more};
+    CHECK_EQUAL(limni_refine(&context, &mesh, NULL, NULL, &refined), LIMN_BAKE_BAD_INPUT);
+    CHECK_TEXT(context.error, "large: more than 268435456 corners of faces to subdivide");
+    limni_release_all(&context);
+}
+
 int main(void) {
+    test_limits();
     test_disagreement();
     test_refused();
     test_not_finite();

@@ -125,8 +125,25 @@ WITHOUT(without_ranges, 0, LIMN_CHUNK_RANGES)
 static void strings_open(const blob *file) {
     chunk_of(file, LIMN_CHUNK_STRINGS)->size--;
 }
+static uint32_t name_end(const blob *file) {
+    return (uint32_t)chunk_of(file, LIMN_CHUNK_STRINGS)->size;
+}
 static void joint_name(const blob *file) {
-    joints_of(file)[2].name = (uint32_t)chunk_of(file, LIMN_CHUNK_STRINGS)->size;
+    joints_of(file)[2].name = name_end(file);
+}
+static void clip_name(const blob *file) {
+    clips_of(file)[1].name = name_end(file);
+}
+static void material_name(const blob *file) {
+    materials_of(file)[1].name = name_end(file);
+}
+static void image_name(const blob *file) {
+    images_of(file)[0].name = name_end(file);
+}
+/// Not damage: the last of the strings is as good a name as any.
+static void last_names(const blob *file) {
+    joints_of(file)[2].name = clips_of(file)[1].name = materials_of(file)[1].name =
+        images_of(file)[0].name = name_end(file) - 1;
 }
 static void joint_before_parent(const blob *file) {
     joints_of(file)[1].parent = 1;
@@ -195,6 +212,15 @@ static void material_colour(const blob *file) {
 static void image_beyond(const blob *file) {
     images_of(file)[0].offset = UINT64_MAX;
 }
+/// Not damage: an image of no bytes may end where the bytes do.
+static void image_at_end(const blob *file) {
+    images_of(file)[0].offset = chunk_of(file, LIMN_CHUNK_IMAGE_BYTES)->size;
+    images_of(file)[0].size = 0;
+}
+static void image_behind_end(const blob *file) {
+    image_at_end(file);
+    images_of(file)[0].offset++;
+}
 static void image_too_long(const blob *file) {
     images_of(file)[0].size++;
 }
@@ -238,7 +264,7 @@ static void target_weight(const blob *file) {
     ((limn_file_target *)chunk_data(file, 0, LIMN_CHUNK_TARGETS))->weight = INFINITY;
 }
 static void target_name(const blob *file) {
-    ((limn_file_target *)chunk_data(file, 0, LIMN_CHUNK_TARGETS))->name = UINT32_MAX;
+    ((limn_file_target *)chunk_data(file, 0, LIMN_CHUNK_TARGETS))->name = name_end(file);
 }
 
 static const damage damages[] = {
@@ -257,6 +283,10 @@ static const damage damages[] = {
     DAMAGE(without_ranges, LIMN_OK),
     DAMAGE(strings_open, LIMN_ERROR_TEXT),
     DAMAGE(joint_name, LIMN_ERROR_SKELETON),
+    DAMAGE(clip_name, LIMN_ERROR_CLIP),
+    DAMAGE(material_name, LIMN_ERROR_MATERIAL),
+    DAMAGE(image_name, LIMN_ERROR_MATERIAL),
+    DAMAGE(last_names, LIMN_OK),
     DAMAGE(joint_before_parent, LIMN_ERROR_SKELETON),
     DAMAGE(joint_out_of_order, LIMN_ERROR_SKELETON),
     DAMAGE(joint_cut, LIMN_ERROR_SKELETON),
@@ -279,6 +309,8 @@ static const damage damages[] = {
     DAMAGE(material_image, LIMN_ERROR_MATERIAL),
     DAMAGE(material_colour, LIMN_ERROR_MATERIAL),
     DAMAGE(image_beyond, LIMN_ERROR_MATERIAL),
+    DAMAGE(image_at_end, LIMN_OK),
+    DAMAGE(image_behind_end, LIMN_ERROR_MATERIAL),
     DAMAGE(image_too_long, LIMN_ERROR_MATERIAL),
     DAMAGE(range_material, LIMN_ERROR_MATERIAL),
     DAMAGE(range_gap, LIMN_ERROR_MATERIAL),
