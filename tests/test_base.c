@@ -23,6 +23,17 @@ static void *allocate(size_t count, size_t size) {
     return memory;
 }
 
+/// The stencils have just the room that they need: each point's terms are counted once.
+static void check_room(const limn_base *base) {
+    uint32_t term_count = 0;
+    for (uint32_t v = 0; v < base->vertex_count; v++) {
+        const uint32_t end = base->vertices[v].first_term + base->vertices[v].term_count;
+        term_count = end > term_count ? end : term_count;
+    }
+    CHECK_EQUAL((uintptr_t)base->indices - (uintptr_t)base->terms,
+                term_count * sizeof *base->terms);
+}
+
 static bool open_baked(subject *s) {
     const void *bytes;
     size_t size;
@@ -33,6 +44,7 @@ static bool open_baked(subject *s) {
     s->memory = allocate(memory_size, 1);
     s->base = limn_base_build(&s->pack, &s->mesh, s->memory);
     CHECK(s->base.size <= memory_size);
+    check_room(&s->base);
     s->normals = allocate(s->mesh.normal_count, sizeof(float[3]));
     if (s->mesh.normals) limn_mesh_control_normals(&s->mesh, s->mesh.controls, s->normals);
     return true;
@@ -250,9 +262,28 @@ static void check_creases(void) {
     check_case(&creased, &(limn_bake_desc){.normals = LIMN_NORMALS_NONE}, NULL, 4);
 }
 
+/// The tetrahedron with numbers that are far apart, at the ends of what is counted together.
+static void check_far_numbers(void) {
+    enum { COUNT_OF_ALL = 3 << 15 };
+    static const uint32_t numbers[] = {0, (1 << 15) - 1, 1 << 15, COUNT_OF_ALL - 1};
+    float *const positions = allocate(COUNT_OF_ALL, sizeof(float[3]));
+    uint32_t faces[12];
+    for (uint32_t c = 0; c < 4; c++)
+        memcpy(positions + 3 * (size_t)numbers[c], tetrahedron_positions + 3 * c, sizeof(float[3]));
+    for (uint32_t i = 0; i < 12; i++)
+        faces[i] = numbers[tetrahedron_faces[i]];
+    mesh_case far_numbers = tetrahedron;
+    far_numbers.positions = positions;
+    far_numbers.position_count = COUNT_OF_ALL;
+    far_numbers.faces = faces;
+    check_case(&far_numbers, NULL, NULL, 4);
+    free(positions);
+}
+
 int main(void) {
     char path[4096];
     make_wheel();
+    check_far_numbers();
     for (int isolate = 0; isolate < 2; isolate++) {
         limn_bake_desc desc = {.normals = LIMN_NORMALS_EXACT,
                                .isolate = isolate ? LIMN_ISOLATE_ALWAYS : LIMN_ISOLATE_NEVER};
