@@ -97,7 +97,7 @@ static limn_bake_status convert_edges(limni_context *context, const limni_mesh *
 static void tell_neighbours(const limni_mesh *mesh, uint32_t control, const uint32_t *seen,
                             limni_mesh_sharpness *sharpness) {
     const uint32_t first = mesh->first[control];
-    uint32_t h = first, last = first;
+    uint32_t h = first, last;
     do {
         const uint32_t pair = mesh->pairs[h];
         sharpness->seen[h][0] = *seen;

@@ -547,6 +547,23 @@ static void check_inserted(uint32_t mesh, uint32_t kind, uint32_t flags, limn_re
     free(file.bytes);
 }
 
+/// The order of the directory is asked for from its very beginning.
+static void test_order(void) {
+    const blob file = bake_tetrahedron();
+    const blob longer =
+        insert_chunk(&file, &(limn_file_chunk){.mesh = LIMN_FORMAT_NO_MESH, .kind = 0});
+    const blob longest =
+        insert_chunk(&longer, &(limn_file_chunk){.mesh = LIMN_FORMAT_NO_MESH, .kind = 1});
+    CHECK_EQUAL(directory_of(&longest)[1].kind, 1);
+    CHECK_EQUAL(open_result(longest.bytes, longest.size), LIMN_OK);
+    directory_of(&longest)[0].kind = 2;
+    fix_checksum(&longest);
+    CHECK_EQUAL(open_result(longest.bytes, longest.size), LIMN_ERROR_CHUNK);
+    free(longest.bytes);
+    free(longer.bytes);
+    free(file.bytes);
+}
+
 static void test_unknown_chunks(void) {
     const uint32_t places[] = {LIMN_FORMAT_NO_MESH, 0};
     const uint32_t kinds[] = {LIMN_FORMAT_KIND('A', 'A', 'A', 'A'),
@@ -731,6 +748,7 @@ int main(void) {
     test_damaged_creases();
     test_damages();
     test_unknown_chunks();
+    test_order();
     test_result_texts();
     test_checksum();
     return check_report();
