@@ -164,8 +164,25 @@ static inline size_t step_at(const blob *file, size_t at) {
     return at >= tables->offset && at < tables->offset + tables->size ? 13 : 1;
 }
 
+/// What lies between chunks and behind the last is not read.
+static inline void check_gaps(const blob *file) {
+    const blob changed = copy_blob(file, file->size);
+    size_t at = sizeof(limn_file_header);
+    at += header_of(file)->chunk_count * sizeof(limn_file_chunk);
+    for (uint32_t c = 0; c < header_of(file)->chunk_count; c++) {
+        const limn_file_chunk *const chunk = &directory_of(file)[c];
+        if (chunk->size == 0) continue;
+        memset(changed.bytes + at, 0xff, (size_t)chunk->offset - at);
+        at = (size_t)(chunk->offset + chunk->size);
+    }
+    memset(changed.bytes + at, 0xff, file->size - at);
+    CHECK(check_safe(&changed));
+    free(changed.bytes);
+}
+
 /// Every byte, but few of the tables.
 static inline void check_mended_bytes(const blob *file) {
+    check_gaps(file);
     const unsigned char patterns[] = {0x01, 0x80, 0xff};
     uint32_t opened = 0, refused = 0;
     for (size_t at = offsetof(limn_file_header, chunk_count); at < file->size;
@@ -187,6 +204,7 @@ static inline void check_mended_bytes(const blob *file) {
 
 /// Counts, offsets and indices at the limits of their types.
 static inline void check_mended_words(const blob *file) {
+    check_gaps(file);
     const uint32_t values[] = {0,       1,          2,          3,          64,        0xffff,
                                1 << 30, 0x3fffffff, 0x7fffffff, 0x80000000, 0xffffffff};
     const limn_file_chunk *const tables = find_chunk(file, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TABLES);

@@ -516,6 +516,27 @@ static blob bake_atlas(const limn_bake_desc *desc) {
 static void test_damages(void) {
     const blob file = bake_atlas(&(limn_bake_desc){.scheme = LIMN_SCHEME_CATMARK});
     check_damages(&file, damages, COUNT(damages));
+    check_gaps(&file);
+    free(file.bytes);
+}
+
+/// Meshes are not channels, and channels have no faces, errors and normals of their own.
+static void test_chunks_of_others(void) {
+    static const limn_file_chunk added[] = {
+        {.mesh = 0, .kind = LIMN_CHUNK_CHANNEL},
+        {.mesh = CHANNEL, .kind = LIMN_CHUNK_FACES},
+        {.mesh = CHANNEL, .kind = LIMN_CHUNK_ERRORS},
+        {.mesh = CHANNEL, .kind = LIMN_CHUNK_NORMALS},
+        {.mesh = CHANNEL, .kind = LIMN_CHUNK_CREASES},
+        {.mesh = CHANNEL, .kind = LIMN_CHUNK_SIDES},
+        {.mesh = CHANNEL, .kind = LIMN_CHUNK_CORNERS},
+    };
+    const blob file = bake_atlas(&(limn_bake_desc){.scheme = LIMN_SCHEME_CATMARK});
+    for (size_t a = 0; a < COUNT(added); a++) {
+        const blob longer = insert_chunk(&file, &added[a]);
+        CHECK_EQUAL(open_result(longer.bytes, longer.size), LIMN_ERROR_CHUNK);
+        free(longer.bytes);
+    }
     free(file.bytes);
 }
 
@@ -568,6 +589,7 @@ int main(void) {
     test_halves();
     test_repairs();
     test_damages();
+    test_chunks_of_others();
     test_mended_words();
     test_bad_channels();
     return check_report();

@@ -284,6 +284,15 @@ static void fewer_classes(const blob *file) {
     header_of(file)->class_count--;
 }
 
+/// Not damage: what is reserved is not read.
+static void reserved_words(const blob *file) {
+    memset(header_of(file)->reserved, 0xff, sizeof header_of(file)->reserved);
+    directory_of(file)->reserved = UINT32_MAX;
+    runs_of(file, STRIP)->reserved = UINT32_MAX;
+    for (uint32_t c = 0; c < header_of(file)->class_count; c++)
+        classes_of(file)[c].reserved = UINT32_MAX;
+}
+
 static void open_info(const blob *file) {
     find_chunk(file, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_INFO)->size--;
 }
@@ -477,6 +486,7 @@ static const damage damages[] = {
     DAMAGE(chunk_size_overflows, LIMN_ERROR_CHUNK),
     DAMAGE(no_meshes, LIMN_OK),
     DAMAGE(fewer_classes, LIMN_ERROR_CHUNK),
+    DAMAGE(reserved_words, LIMN_OK),
     DAMAGE(open_info, LIMN_ERROR_TEXT),
     DAMAGE(open_name, LIMN_ERROR_TEXT),
     DAMAGE(empty_name, LIMN_ERROR_TEXT),

@@ -120,8 +120,33 @@ WITHOUT(without_joints, 0, LIMN_CHUNK_JOINTS)
 WITHOUT(without_influences, 0, LIMN_CHUNK_INFLUENCES)
 WITHOUT(without_targets, 0, LIMN_CHUNK_TARGETS)
 WITHOUT(without_target_points, 0, LIMN_CHUNK_TARGET_POINTS)
+WITHOUT(without_target_first, 0, LIMN_CHUNK_TARGET_FIRST)
+WITHOUT(without_target_deltas, 0, LIMN_CHUNK_TARGET_DELTAS)
 WITHOUT(without_ranges, 0, LIMN_CHUNK_RANGES)
 
+/// Not whole records.
+#define CUT(name, mesh, kind)                                                                      \
+    static void name(const blob *file) {                                                           \
+        find_chunk(file, mesh, kind)->size -= 2;                                                   \
+    }
+CUT(clips_cut, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_CLIPS)
+CUT(tracks_cut, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_TRACKS)
+CUT(keys_cut, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_KEYS)
+CUT(materials_cut, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_MATERIALS)
+CUT(images_cut, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_IMAGES)
+CUT(targets_cut, 0, LIMN_CHUNK_TARGETS)
+CUT(target_first_cut, 0, LIMN_CHUNK_TARGET_FIRST)
+CUT(target_points_cut, 0, LIMN_CHUNK_TARGET_POINTS)
+CUT(target_deltas_cut, 0, LIMN_CHUNK_TARGET_DELTAS)
+CUT(ranges_cut, 0, LIMN_CHUNK_RANGES)
+
+static void targets_empty(const blob *file) {
+    find_chunk(file, 0, LIMN_CHUNK_TARGETS)->size = 0;
+    find_chunk(file, 0, LIMN_CHUNK_TARGET_FIRST)->size = sizeof(uint32_t);
+}
+static void clip_negative(const blob *file) {
+    clips_of(file)[0].duration = -0x1p-100f;
+}
 static void strings_open(const blob *file) {
     chunk_of(file, LIMN_CHUNK_STRINGS)->size--;
 }
@@ -280,7 +305,20 @@ static const damage damages[] = {
     DAMAGE(without_influences, LIMN_ERROR_CHUNK),
     DAMAGE(without_targets, LIMN_ERROR_CHUNK),
     DAMAGE(without_target_points, LIMN_ERROR_CHUNK),
+    DAMAGE(without_target_first, LIMN_ERROR_CHUNK),
+    DAMAGE(without_target_deltas, LIMN_ERROR_CHUNK),
     DAMAGE(without_ranges, LIMN_OK),
+    DAMAGE(clips_cut, LIMN_ERROR_CLIP),
+    DAMAGE(tracks_cut, LIMN_ERROR_CLIP),
+    DAMAGE(keys_cut, LIMN_ERROR_CLIP),
+    DAMAGE(materials_cut, LIMN_ERROR_MATERIAL),
+    DAMAGE(images_cut, LIMN_ERROR_MATERIAL),
+    DAMAGE(targets_cut, LIMN_ERROR_MORPH_POINT),
+    DAMAGE(targets_empty, LIMN_ERROR_MORPH_POINT),
+    DAMAGE(target_first_cut, LIMN_ERROR_MORPH_POINT),
+    DAMAGE(target_points_cut, LIMN_ERROR_MORPH_POINT),
+    DAMAGE(target_deltas_cut, LIMN_ERROR_MORPH_POINT),
+    DAMAGE(ranges_cut, LIMN_ERROR_MATERIAL),
     DAMAGE(strings_open, LIMN_ERROR_TEXT),
     DAMAGE(joint_name, LIMN_ERROR_SKELETON),
     DAMAGE(clip_name, LIMN_ERROR_CLIP),
@@ -294,6 +332,7 @@ static const damage damages[] = {
     DAMAGE(clip_gap, LIMN_ERROR_CLIP),
     DAMAGE(clip_too_long, LIMN_ERROR_CLIP),
     DAMAGE(clip_duration, LIMN_ERROR_CLIP),
+    DAMAGE(clip_negative, LIMN_ERROR_CLIP),
     DAMAGE(track_of_no_joint, LIMN_ERROR_CLIP),
     DAMAGE(track_of_no_mesh, LIMN_ERROR_CLIP),
     DAMAGE(track_of_no_targets, LIMN_ERROR_CLIP),
@@ -377,6 +416,7 @@ int main(void) {
     CHECK(use_character(&pack) > 0);
     test_golden(&file);
     check_damages(&file, damages, COUNT(damages));
+    check_gaps(&file);
     test_words(&file);
     test_depth();
     free(file.bytes);
