@@ -64,9 +64,9 @@ class copier {
     void copy_accessor(const tinygltf::Accessor &from, limni_gltf_accessor *to);
     void copy_attributes(const std::map<std::string, int> &from, limni_gltf_attributes *to);
     void copy_primitive(const tinygltf::Primitive &from, limni_gltf_primitive *to);
-    void copy_tags(const tinygltf::Value &from, limni_gltf_tags *to);
+    void copy_tags(const tinygltf::Value &from, limni_model_tags *to);
     void copy_mesh(const tinygltf::Mesh &from, limni_gltf_mesh *to);
-    void copy_node(const tinygltf::Node &from, limni_gltf_node *to);
+    void copy_node(const tinygltf::Node &from, limni_model_node *to);
     void copy_skin(const tinygltf::Skin &from, limni_gltf_skin *to);
     void copy_animation(const tinygltf::Animation &from, limni_gltf_animation *to);
     void copy_material(const tinygltf::Material &from, limni_gltf_material *to);
@@ -76,7 +76,7 @@ class copier {
     void copy_image(const tinygltf::Image &from, limni_gltf_image *to);
 
     double *rows(const tinygltf::Value &from, const char *name, int width, uint32_t *count,
-                 limni_gltf_tags *tags);
+                 limni_model_tags *tags);
 
     limni_context *context;
     limni_gltf *document;
@@ -132,7 +132,7 @@ void copier::copy_primitive(const tinygltf::Primitive &from, limni_gltf_primitiv
 
 /// An array of arrays of `width` numbers, or the tags have a mistake.
 double *copier::rows(const tinygltf::Value &from, const char *name, int width, uint32_t *count,
-                     limni_gltf_tags *tags) {
+                     limni_model_tags *tags) {
     if (!from.Has(name)) return nullptr;
     const tinygltf::Value &list = from.Get(name);
     if (!list.IsArray()) {
@@ -157,7 +157,7 @@ double *copier::rows(const tinygltf::Value &from, const char *name, int width, u
     return numbers;
 }
 
-void copier::copy_tags(const tinygltf::Value &from, limni_gltf_tags *to) {
+void copier::copy_tags(const tinygltf::Value &from, limni_model_tags *to) {
     to->boundary = to->creasing = "";
     if (!from.Has("limn")) return;
     const tinygltf::Value &limn = from.Get("limn");
@@ -202,11 +202,11 @@ bool take(const std::vector<double> &from, size_t count, double *to) {
     return from.empty() || from.size() == count;
 }
 
-void copier::copy_node(const tinygltf::Node &from, limni_gltf_node *to) {
+void copier::copy_node(const tinygltf::Node &from, limni_model_node *to) {
     to->name = text(from.name);
     to->mesh = from.mesh;
     to->skin = from.skin;
-    to->camera = from.camera;
+    to->has_camera = from.camera >= 0;
     to->children = array(from.children, &to->child_count);
     to->rotation[3] = 1;
     to->scale[0] = to->scale[1] = to->scale[2] = 1;
@@ -282,7 +282,7 @@ void copier::copy(const tinygltf::Model &model) {
     d->accessors =
         each<limni_gltf_accessor>(model.accessors, &d->accessor_count, &copier::copy_accessor);
     d->meshes = each<limni_gltf_mesh>(model.meshes, &d->mesh_count, &copier::copy_mesh);
-    d->nodes = each<limni_gltf_node>(model.nodes, &d->node_count, &copier::copy_node);
+    d->nodes = each<limni_model_node>(model.nodes, &d->node_count, &copier::copy_node);
     d->skins = each<limni_gltf_skin>(model.skins, &d->skin_count, &copier::copy_skin);
     d->animations =
         each<limni_gltf_animation>(model.animations, &d->animation_count, &copier::copy_animation);

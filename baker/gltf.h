@@ -7,7 +7,7 @@
 #ifndef LIMNI_GLTF_H
 #define LIMNI_GLTF_H
 
-#include "context.h"
+#include "model.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -63,15 +63,6 @@ typedef struct limni_gltf_primitive {
     int indices, material, mode;
 } limni_gltf_primitive;
 
-/// `extras.limn` of a mesh (docs/meshes.md).
-typedef struct limni_gltf_tags {
-    double (*creases)[3]; ///< two vertices and a sharpness
-    double (*corners)[2]; ///< a vertex and a sharpness
-    uint32_t crease_count, corner_count;
-    const char *boundary, *creasing;
-    const char *mistake; ///< what is wrong with them; NULL: nothing
-} limni_gltf_tags;
-
 typedef struct limni_gltf_mesh {
     const char *name;
     limni_gltf_primitive *primitives;
@@ -80,21 +71,8 @@ typedef struct limni_gltf_mesh {
     uint32_t weight_count;
     const char **target_names; ///< [target_name_count] from extras.targetNames
     uint32_t target_name_count;
-    limni_gltf_tags tags;
+    limni_model_tags tags;
 } limni_gltf_mesh;
-
-typedef struct limni_gltf_node {
-    const char *name;
-    int mesh, skin, camera;
-    int *children;
-    uint32_t child_count;
-    bool has_matrix;
-    double matrix[16]; ///< column by column; or what follows
-    double translation[3], rotation[4], scale[3];
-    double *weights;
-    uint32_t weight_count;
-    const char *mistake; ///< what is wrong with its numbers; NULL: nothing
-} limni_gltf_node;
 
 typedef struct limni_gltf_skin {
     const char *name;
@@ -136,7 +114,7 @@ typedef struct limni_gltf {
     limni_gltf_view *views;
     limni_gltf_accessor *accessors;
     limni_gltf_mesh *meshes;
-    limni_gltf_node *nodes;
+    limni_model_node *nodes;
     limni_gltf_skin *skins;
     limni_gltf_animation *animations;
     limni_gltf_material *materials;

@@ -24,14 +24,14 @@ typedef struct reading {
 LIMNI_PRINTF(2, 3)
 static limn_bake_status refuse(const reading *r, const char *format, ...) {
     char text[256];
-    limni_gltf_label label;
+    limni_label label;
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     return limni_fail(
         r->reader->context, LIMN_BAKE_BAD_INPUT, "%s: %s (%s): %s", r->reader->document->path,
-        limni_gltf_name(label, "accessor", r->index, r->accessor->name), r->what, text);
+        limni_label_make(label, "accessor", r->index, r->accessor->name), r->what, text);
 }
 
 /// The bytes of a buffer view.

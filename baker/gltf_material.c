@@ -1,120 +1,66 @@
 /* SPDX-License-Identifier: MIT */
-/* Materials and the images of their base colour. */
+/* Materials, and the bytes of images where they lie in buffers. */
 #include "gltf_reader.h"
 
-#include "mesh.h"
-
-#include <math.h>
 #include <stdio.h>
-#include <string.h>
 
-/// Whether bytes begin as those of a PNG or JPEG file.
-static bool is_png_or_jpeg(const unsigned char *bytes, uint64_t size) {
-    return (size >= 4 && memcmp(bytes, "\x89PNG", 4) == 0) ||
-           (size >= 3 && memcmp(bytes, "\xff\xd8\xff", 3) == 0);
-}
-
-/// The bytes of an image; none, with a note, where they are not to be had.
-static limn_bake_status add_bytes(limni_gltf_reader *reader, const limni_gltf_image *image,
-                                  const char *label, limn_file_image *record) {
-    const limni_gltf *const document = reader->document;
-    limni_character *const character = reader->scene->character;
-    const unsigned char *bytes = image->bytes;
-    uint64_t size = image->size;
-    if (image->view >= 0 && (uint32_t)image->view < document->view_count) {
-        const limni_gltf_view *const view = &document->views[image->view];
-        const limni_gltf_buffer *const buffer =
-            view->buffer >= 0 && (uint32_t)view->buffer < document->buffer_count
-                ? &document->buffers[view->buffer]
-                : NULL;
-        if (!buffer || view->offset > buffer->size || view->size > buffer->size - view->offset)
-            return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT,
-                              "%s: %s: buffer view %d reaches beyond its buffer", document->path,
-                              label, image->view);
-        bytes = buffer->bytes + view->offset;
-        size = view->size;
-    }
-    if (!bytes && image->uri[0]) {
-        limni_note(reader->context,
-                   "%s: %s: the texture '%s' is missing: there is no such regular file in the "
-                   "folder of the document",
-                   document->path, label, image->uri);
-        return LIMN_BAKE_OK;
-    }
-    if (!bytes || !is_png_or_jpeg(bytes, size)) {
-        limni_note(reader->context, "%s: %s: it is left out: it is neither PNG nor JPEG",
-                   document->path, label);
-        return LIMN_BAKE_OK;
-    }
-    if (!reader->context->desc.images) return LIMN_BAKE_OK;
-    record->offset = character->image_bytes.count;
-    record->size = size;
-    return limni_list_add(reader->context, &character->image_bytes, bytes, (size_t)size, 1);
-}
-
-static limn_bake_status add_image(limni_gltf_reader *reader, uint32_t index, uint32_t *added) {
-    limni_character *const character = reader->scene->character;
-    const limni_gltf_image *const image = &reader->document->images[index];
-    limn_file_image record = {0};
-    limni_gltf_label label;
-    limni_gltf_name(label, "image", index, image->name);
-    const char *const name = image->uri[0] ? image->uri : image->name[0] ? image->name : label;
-    LIMNI_TRY(limni_character_add_text(reader->context, character, name, &record.name));
-    LIMNI_TRY(add_bytes(reader, image, label, &record));
-    *added = character->images.count;
-    return limni_list_add(reader->context, &character->images, &record, 1, sizeof record);
-}
-
-static limn_bake_status add_texture(limni_gltf_reader *reader, const char *label, int texture,
-                                    uint32_t *added) {
+/// A texture is an image; the other things that it is are for the graphics library.
+static limn_bake_status find_image(const limni_gltf_reader *reader, int texture,
+                                   limni_model_material *material) {
     const limni_gltf *const document = reader->document;
     const bool known = texture >= 0 && (uint32_t)texture < document->texture_count;
-    const int image = known ? document->textures[texture] : -1;
-    *added = LIMN_FORMAT_NONE;
-    if (texture < 0) return LIMN_BAKE_OK;
-    if (image < 0 || (uint32_t)image >= document->image_count) {
-        limni_note(reader->context, "%s: %s: its texture %d has no image that is understood",
-                   document->path, label, texture);
+    material->image = known ? document->textures[texture] : -1;
+    if (texture < 0 || (material->image >= 0 && (uint32_t)material->image < document->image_count))
         return LIMN_BAKE_OK;
-    }
-    if (reader->images[image] == LIMN_FORMAT_NONE)
-        LIMNI_TRY(add_image(reader, (uint32_t)image, &reader->images[image]));
-    *added = reader->images[image];
+    char *const mistake = limni_allocate(reader->context, 80, 1);
+    if (!mistake) return LIMN_BAKE_MEMORY;
+    snprintf(mistake, 80, "its texture %d has no image that is understood", texture);
+    material->image = -1;
+    material->mistake = mistake;
     return LIMN_BAKE_OK;
 }
 
-static limn_bake_status add_material(limni_gltf_reader *reader, uint32_t index) {
-    limni_character *const character = reader->scene->character;
-    const limni_gltf_material *const from = &reader->document->materials[index];
-    limn_file_material record = {.texture_channel = from->base_channel};
-    limni_gltf_label label;
-    limni_gltf_name(label, "material", index, from->name);
-    for (int i = 0; i < 4; i++) {
-        record.base_colour[i] = (float)from->base_colour[i];
-        if (!isfinite(record.base_colour[i]))
-            return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT,
-                              "%s: %s: its colour is not finite", reader->document->path, label);
-    }
-    if (from->ignored[0])
-        limni_note(reader->context, "%s: %s: only its base colour is read, not %s",
-                   reader->document->path, label, from->ignored);
-    LIMNI_TRY(limni_character_add_text(reader->context, character,
-                                       from->name[0] ? from->name : label, &record.name));
-    LIMNI_TRY(add_texture(reader, label, from->base_texture, &record.image));
-    reader->materials[index] = character->materials.count;
-    return limni_list_add(reader->context, &character->materials, &record, 1, sizeof record);
+static limn_bake_status read_image(const limni_gltf_reader *reader, uint32_t index) {
+    const limni_gltf *const document = reader->document;
+    const limni_gltf_image *const from = &document->images[index];
+    limni_model_image *const image = &reader->model->images[index];
+    limni_label label;
+    *image = (limni_model_image){from->name, from->uri, from->bytes, from->size};
+    if (from->view < 0 || (uint32_t)from->view >= document->view_count) return LIMN_BAKE_OK;
+    const limni_gltf_view *const view = &document->views[from->view];
+    const limni_gltf_buffer *const buffer =
+        view->buffer >= 0 && (uint32_t)view->buffer < document->buffer_count
+            ? &document->buffers[view->buffer]
+            : NULL;
+    if (!buffer || view->offset > buffer->size || view->size > buffer->size - view->offset)
+        return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT,
+                          "%s: %s: buffer view %d reaches beyond its buffer", document->path,
+                          limni_label_make(label, "image", index, from->name), from->view);
+    image->bytes = buffer->bytes + view->offset;
+    image->size = view->size;
+    return LIMN_BAKE_OK;
 }
 
-limn_bake_status limni_gltf_find_material(limni_gltf_reader *reader, int index,
-                                          uint32_t *material) {
-    *material = LIMN_FORMAT_NONE;
-    if (index < 0) return LIMN_BAKE_OK;
-    if ((uint32_t)index >= reader->document->material_count)
-        return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT,
-                          "%s: a primitive has material %d, but there are %u",
-                          reader->document->path, index, reader->document->material_count);
-    if (reader->materials[index] == LIMN_FORMAT_NONE)
-        LIMNI_TRY(add_material(reader, (uint32_t)index));
-    *material = reader->materials[index];
+limn_bake_status limni_gltf_read_materials(const limni_gltf_reader *reader) {
+    const limni_gltf *const document = reader->document;
+    limni_model *const model = reader->model;
+    model->material_count = document->material_count;
+    model->image_count = document->image_count;
+    model->materials =
+        limni_allocate_zeroed(reader->context, model->material_count, sizeof *model->materials);
+    model->images = limni_allocate(reader->context, model->image_count, sizeof *model->images);
+    if (!model->materials || !model->images) return LIMN_BAKE_MEMORY;
+    for (uint32_t i = 0; i < model->image_count; i++)
+        LIMNI_TRY(read_image(reader, i));
+    for (uint32_t m = 0; m < model->material_count; m++) {
+        const limni_gltf_material *const from = &document->materials[m];
+        limni_model_material *const material = &model->materials[m];
+        material->name = from->name;
+        material->uv_set = from->base_channel;
+        material->passed_over = from->ignored;
+        for (int i = 0; i < 4; i++)
+            material->base_colour[i] = from->base_colour[i];
+        LIMNI_TRY(find_image(reader, from->base_texture, material));
+    }
     return LIMN_BAKE_OK;
 }

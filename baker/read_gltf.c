@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* glTF 2.0: meshes of triangles with what moves and colours them. docs/meshes.md says how. */
+/* glTF 2.0. docs/meshes.md says what is read. */
 #include "gltf_reader.h"
+#include "read_model.h"
 
 #include <string.h>
 
@@ -31,25 +32,21 @@ static limn_bake_status check_extensions(const limni_gltf_reader *reader) {
     return LIMN_BAKE_OK;
 }
 
-static uint32_t *make_indices(limni_context *context, uint32_t count) {
-    uint32_t *const indices = limni_allocate(context, count, sizeof *indices);
-    if (indices) memset(indices, 0xff, count * sizeof *indices);
-    return indices;
-}
-
-static limn_bake_status read(limni_gltf_reader *reader) {
+/// Nodes are read as they are; the rest is out of accessors.
+static limn_bake_status read(const limni_gltf_reader *reader) {
     const limni_gltf *const document = reader->document;
+    limni_model *const model = reader->model;
+    *model = (limni_model){.path = document->path,
+                           .nodes = document->nodes,
+                           .node_count = document->node_count,
+                           .roots = document->roots,
+                           .root_count = document->root_count,
+                           .has_scene = document->has_scene};
     LIMNI_TRY(check_extensions(reader));
-    reader->materials = make_indices(reader->context, document->material_count);
-    reader->images = make_indices(reader->context, document->image_count);
-    if (!reader->materials || !reader->images) return LIMN_BAKE_MEMORY;
-    LIMNI_TRY(limni_gltf_read_nodes(reader));
-    LIMNI_TRY(limni_gltf_read_skeleton(reader));
     LIMNI_TRY(limni_gltf_read_meshes(reader));
-    if (reader->scene->source_count == 0)
-        return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT,
-                          "%s: its scene has no mesh of triangles", document->path);
-    return limni_gltf_read_clips(reader);
+    LIMNI_TRY(limni_gltf_read_skins(reader));
+    LIMNI_TRY(limni_gltf_read_materials(reader));
+    return limni_gltf_read_animations(reader);
 }
 
 /// The largest part of a document: what is needed of it has been copied.
@@ -64,9 +61,10 @@ limn_bake_status limni_read_gltf(limni_context *context, const char *path, const
                                  const char *bytes, size_t size, limni_scene *scene) {
     limni_gltf document;
     LIMNI_TRY(limni_gltf_parse(context, path, bytes, size, &document));
-    limni_gltf_reader reader = {
-        .context = context, .document = &document, .file_name = name, .scene = scene};
+    limni_model model;
+    const limni_gltf_reader reader = {context, &document, &model};
     LIMNI_TRY(read(&reader));
+    LIMNI_TRY(limni_read_model(context, &model, name, scene));
     release_bytes(context, &document);
     return LIMN_BAKE_OK;
 }

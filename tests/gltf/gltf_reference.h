@@ -161,7 +161,7 @@ static inline void reference_sample(const limni_gltf *d, const limni_gltf_animat
 static inline reference_matrix reference_local(const limni_gltf *d,
                                                const limni_gltf_animation *animation, double time,
                                                int index) {
-    const limni_gltf_node *const node = &d->nodes[index];
+    const limni_model_node *const node = &d->nodes[index];
     double t[3], q[4], s[3];
     bool animated = false;
     for (uint32_t c = 0; animation && c < animation->channel_count; c++)
@@ -227,7 +227,7 @@ static inline void reference_morph(const reference_moment *at, int index,
                                    const limni_gltf_primitive *primitive, double *points,
                                    size_t count) {
     const limni_gltf *const d = at->document;
-    const limni_gltf_node *const node = &d->nodes[index];
+    const limni_model_node *const node = &d->nodes[index];
     const limni_gltf_mesh *const mesh = &d->meshes[node->mesh];
     double weights[64] = {0};
     for (uint32_t t = 0; t < primitive->target_count; t++)
@@ -292,7 +292,7 @@ static inline void reference_skin(const reference_moment *at, const limni_gltf_s
 static inline double *reference_vertices(const reference_moment *at, int index,
                                          uint32_t primitive_index, bool posed, size_t *count) {
     const limni_gltf *const d = at->document;
-    const limni_gltf_node *const node = &d->nodes[index];
+    const limni_model_node *const node = &d->nodes[index];
     const limni_gltf_primitive *const primitive =
         &d->meshes[node->mesh].primitives[primitive_index];
     const int positions = reference_attribute(&primitive->attributes, "POSITION");

@@ -347,7 +347,7 @@ static void test_notes(const scene *s) {
     static const char *const notes[] = {
         "image 0: the texture 'not_there.png' is missing",
         "material 1 'lid': only its base colour is read, not normalTexture",
-        "mesh 0 'tube': 1 primitives have no TEXCOORD_0, and get 0",
+        "mesh 0 'tube': 1 of its 2 parts have no uv, and get 0",
     };
     for (size_t n = 0; n < sizeof notes / sizeof *notes; n++)
         CHECK_CONTAINS(s->notes, notes[n]);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "gltf_vertices.h"
+#include "model_vertices.h"
 
 #include "hash.h"
 #include "limn/limn.h"
@@ -10,15 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-int limni_gltf_attribute_of(const limni_gltf_attributes *attributes, const char *name) {
-    for (uint32_t a = 0; a < attributes->count; a++) {
-        if (strcmp(attributes->items[a].name, name) == 0) return attributes->items[a].accessor;
-    }
-    return -1;
-}
-
-uint32_t limni_gltf_merge(limni_context *context, const void *records, size_t size, uint32_t count,
-                          uint32_t *moved) {
+uint32_t limni_model_merge(limni_context *context, const void *records, size_t size, uint32_t count,
+                           uint32_t *moved) {
     const unsigned char *const bytes = records;
     const uint32_t table_size = limni_hash_size(count);
     uint32_t *const table = limni_allocate(context, table_size, sizeof *table);
@@ -51,7 +44,7 @@ uint32_t limni_gltf_merge(limni_context *context, const void *records, size_t si
 
 /// All by vertex, before equal ones are made one.
 typedef struct data {
-    limni_gltf_vertices *vertices;
+    limni_model_vertices *vertices;
     float (*positions)[3];
     uint16_t *joints; ///< [count][LIMN_INFLUENCE_MAX]; NULL: no skin
     float *weights;
@@ -60,33 +53,28 @@ typedef struct data {
 } data;
 
 static limn_bake_status read_positions(data *d) {
-    const limni_gltf_vertices *const v = d->vertices;
+    const limni_model_vertices *const v = d->vertices;
     d->positions = limni_allocate(v->reader->context, v->count, sizeof *d->positions);
     if (!d->positions) return LIMN_BAKE_MEMORY;
-    for (uint32_t p = 0; p < v->part_count; p++) {
-        const limni_gltf_part *const part = &v->parts[p];
-        char what[192];
-        snprintf(what, sizeof what, "POSITION of %s", part->label);
-        LIMNI_TRY(limni_gltf_read_floats(
-            v->reader, limni_gltf_attribute_of(&part->primitive->attributes, "POSITION"), what,
-            part->count, 3, d->positions[part->first]));
-    }
-    for (uint32_t i = 0; i < v->count; i++) {
-        for (int axis = 0; axis < 3; axis++)
-            d->positions[i][axis] += 0.0f; // -0 and 0 are one place
+    for (uint32_t p = 0; p < v->mesh->part_count; p++) {
+        const limni_model_part *const part = &v->mesh->parts[p];
+        for (uint32_t i = 0; i < part->vertex_count; i++) {
+            for (int axis = 0; axis < 3; axis++) // -0 and 0 are one place
+                d->positions[part->first + i][axis] = part->positions[i][axis] + 0.0f;
+        }
     }
     return LIMN_BAKE_OK;
 }
 
 static limn_bake_status read_skin(data *d) {
-    const limni_gltf_vertices *const v = d->vertices;
+    const limni_model_vertices *const v = d->vertices;
     const size_t count = (size_t)LIMN_INFLUENCE_MAX * v->count;
     const uint32_t whole = v->reader->whole_joints[v->node_index];
     if (v->node->skin < 0 && whole == LIMN_FORMAT_NONE) return LIMN_BAKE_OK;
     d->joints = limni_allocate_zeroed(v->reader->context, count, sizeof *d->joints);
     d->weights = limni_allocate_zeroed(v->reader->context, count, sizeof *d->weights);
     if (!d->joints || !d->weights) return LIMN_BAKE_MEMORY;
-    if (v->node->skin >= 0) return limni_gltf_read_influences(v, d->joints, d->weights);
+    if (v->node->skin >= 0) return limni_model_read_influences(v, d->joints, d->weights);
     for (size_t i = 0; i < count; i++) {
         d->joints[i] = (uint16_t)whole;
         d->weights[i] = i % LIMN_INFLUENCE_MAX == 0;
@@ -96,73 +84,43 @@ static limn_bake_status read_skin(data *d) {
 
 // ---- Morph targets
 
-static limn_bake_status read_target(const data *d, const limni_gltf_part *part, uint32_t target) {
-    limni_gltf_reader *const reader = d->vertices->reader;
-    const limni_gltf_attributes *const attributes = &part->primitive->targets[target];
-    const int accessor = limni_gltf_attribute_of(attributes, "POSITION");
-    char what[192];
-    snprintf(what, sizeof what, "POSITION of morph target %u of %s", target, part->label);
-    if (accessor < 0) return LIMN_BAKE_OK;
-    float(*const deltas)[3] = limni_allocate(reader->context, part->count, sizeof *deltas);
-    if (!deltas) return LIMN_BAKE_MEMORY;
-    LIMNI_TRY(limni_gltf_read_floats(reader, accessor, what, part->count, 3, deltas[0]));
-    for (uint32_t i = 0; i < part->count; i++) {
+static void read_target(const data *d, const limni_model_part *part, uint32_t target) {
+    for (uint32_t i = 0; part->targets[target] && i < part->vertex_count; i++) {
         for (int axis = 0; axis < 3; axis++)
             d->deltas[(size_t)(part->first + i) * d->target_count + target][axis] =
-                deltas[i][axis] + 0.0f;
-    }
-    limni_release(reader->context, deltas);
-    return LIMN_BAKE_OK;
-}
-
-/// Names, once, what morph targets have beside positions.
-static void note_other_targets(const data *d) {
-    static const char *const names[] = {"NORMAL",     "TANGENT", "TEXCOORD_0",
-                                        "TEXCOORD_1", "COLOR_0", "COLOR_1"};
-    const limni_gltf_vertices *const v = d->vertices;
-    for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
-        bool any = false;
-        for (uint32_t p = 0; p < v->part_count; p++) {
-            for (uint32_t t = 0; t < d->target_count; t++)
-                any |= limni_gltf_attribute_of(&v->parts[p].primitive->targets[t], names[n]) >= 0;
-        }
-        if (any)
-            limni_note(v->reader->context,
-                       "%s: %s: morph targets move positions alone; their %s is passed over",
-                       v->reader->document->path, v->label, names[n]);
+                part->targets[target][i][axis] + 0.0f;
     }
 }
 
 static limn_bake_status read_targets(data *d) {
-    const limni_gltf_vertices *const v = d->vertices;
-    d->target_count = v->parts[0].primitive->target_count;
-    for (uint32_t p = 1; p < v->part_count; p++) {
-        if (v->parts[p].primitive->target_count != d->target_count)
+    const limni_model_vertices *const v = d->vertices;
+    const limni_model_part *const parts = v->mesh->parts;
+    d->target_count = parts[0].target_count;
+    for (uint32_t p = 1; p < v->mesh->part_count; p++) {
+        if (parts[p].target_count != d->target_count)
             return limni_fail(v->reader->context, LIMN_BAKE_BAD_INPUT,
-                              "%s: %s has %u morph targets, but %s has %u",
-                              v->reader->document->path, v->parts[p].label,
-                              v->parts[p].primitive->target_count, v->parts[0].label,
+                              "%s: %s has %u morph targets, but %s has %u", v->reader->model->path,
+                              parts[p].label, parts[p].target_count, parts[0].label,
                               d->target_count);
     }
     if (d->target_count == 0) return LIMN_BAKE_OK;
     if (d->target_count > UINT16_MAX)
         return limni_fail(v->reader->context, LIMN_BAKE_BAD_INPUT,
-                          "%s: %s: more than %u morph targets", v->reader->document->path, v->label,
+                          "%s: %s: more than %u morph targets", v->reader->model->path, v->label,
                           UINT16_MAX);
     d->deltas = limni_allocate_zeroed(v->reader->context, (size_t)v->count * d->target_count,
                                       sizeof *d->deltas);
     if (!d->deltas) return LIMN_BAKE_MEMORY;
-    for (uint32_t p = 0; p < v->part_count; p++) {
+    for (uint32_t p = 0; p < v->mesh->part_count; p++) {
         for (uint32_t t = 0; t < d->target_count; t++)
-            LIMNI_TRY(read_target(d, &v->parts[p], t));
+            read_target(d, &parts[p], t);
     }
-    note_other_targets(d);
     return LIMN_BAKE_OK;
 }
 
 /// Names, and the weights at rest: those of the node, or else of the mesh.
 static limn_bake_status describe_targets(const data *d, limni_rig *rig) {
-    const limni_gltf_vertices *const v = d->vertices;
+    const limni_model_vertices *const v = d->vertices;
     limni_context *const context = v->reader->context;
     const bool own = v->node->weight_count > 0;
     const double *const weights = own ? v->node->weights : v->mesh->weights;
@@ -172,7 +130,7 @@ static limn_bake_status describe_targets(const data *d, limni_rig *rig) {
     if (!rig->targets) return LIMN_BAKE_MEMORY;
     if (weight_count != 0 && weight_count != d->target_count)
         limni_note(context, "%s: %s: %u weights at rest for %u morph targets",
-                   v->reader->document->path, v->label, weight_count, d->target_count);
+                   v->reader->model->path, v->label, weight_count, d->target_count);
     for (uint32_t t = 0; t < d->target_count; t++) {
         char numbered[32];
         snprintf(numbered, sizeof numbered, "target %u", t);
@@ -181,7 +139,7 @@ static limn_bake_status describe_targets(const data *d, limni_rig *rig) {
         if (!(fabs(weight) <= (double)FLT_MAX))
             return limni_fail(context, LIMN_BAKE_BAD_INPUT,
                               "%s: %s: the weight of morph target %u is not finite",
-                              v->reader->document->path, v->label, t);
+                              v->reader->model->path, v->label, t);
         rig->targets[t] = (limn_file_target){.weight = (float)weight};
         LIMNI_TRY(limni_character_add_text(context, v->reader->scene->character,
                                            named ? v->mesh->target_names[t] : numbered,
@@ -194,7 +152,7 @@ static limn_bake_status describe_targets(const data *d, limni_rig *rig) {
 
 /// Lays what makes a position side by side.
 static unsigned char *make_records(const data *d, size_t *size) {
-    const limni_gltf_vertices *const v = d->vertices;
+    const limni_model_vertices *const v = d->vertices;
     const size_t joints_size = d->joints ? LIMN_INFLUENCE_MAX * sizeof *d->joints : 0;
     const size_t weights_size = d->joints ? LIMN_INFLUENCE_MAX * sizeof *d->weights : 0;
     const size_t deltas_size = d->target_count * sizeof *d->deltas;
@@ -260,8 +218,8 @@ static limn_bake_status note_apart(const data *d, const limni_source *source) {
     limni_context *const context = d->vertices->reader->context;
     uint32_t *const moved = limni_allocate(context, source->position_count, sizeof *moved);
     if (!moved) return LIMN_BAKE_MEMORY;
-    const uint32_t places = limni_gltf_merge(context, source->positions, sizeof *source->positions,
-                                             source->position_count, moved);
+    const uint32_t places = limni_model_merge(context, source->positions, sizeof *source->positions,
+                                              source->position_count, moved);
     if (places == UINT32_MAX) return LIMN_BAKE_MEMORY;
     if (places < source->position_count)
         limni_note(context,
@@ -272,7 +230,7 @@ static limn_bake_status note_apart(const data *d, const limni_source *source) {
     return LIMN_BAKE_OK;
 }
 
-limn_bake_status limni_gltf_read_vertices(limni_gltf_vertices *vertices, limni_source *source) {
+limn_bake_status limni_model_read_vertices(limni_model_vertices *vertices, limni_source *source) {
     limni_context *const context = vertices->reader->context;
     data d = {.vertices = vertices};
     size_t size;
@@ -283,7 +241,7 @@ limn_bake_status limni_gltf_read_vertices(limni_gltf_vertices *vertices, limni_s
     unsigned char *const records = make_records(&d, &size);
     if (!vertices->moved || !records) return LIMN_BAKE_MEMORY;
     source->position_count =
-        limni_gltf_merge(context, records, size, vertices->count, vertices->moved);
+        limni_model_merge(context, records, size, vertices->count, vertices->moved);
     if (source->position_count == UINT32_MAX) return LIMN_BAKE_MEMORY;
     LIMNI_TRY(make_source(&d, source));
     limni_release(context, records);

@@ -1,24 +1,23 @@
 /* SPDX-License-Identifier: MIT */
 /* The tree of nodes: order, places at rest, and what moves. */
-#include "gltf_reader.h"
+#include "model_reader.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-const char *limni_gltf_name(limni_gltf_label text, const char *what, uint32_t index,
-                            const char *name) {
+const char *limni_label_make(limni_label text, const char *what, uint32_t index, const char *name) {
     if (name[0])
-        snprintf(text, sizeof(limni_gltf_label), "%s %u '%.60s'", what, index, name);
+        snprintf(text, sizeof(limni_label), "%s %u '%.60s'", what, index, name);
     else
-        snprintf(text, sizeof(limni_gltf_label), "%s %u", what, index);
+        snprintf(text, sizeof(limni_label), "%s %u", what, index);
     return text;
 }
 
 // ---- Transforms
 
-limni_transform limni_gltf_local(const limni_gltf_node *node) {
+limni_transform limni_model_local(const limni_model_node *node) {
     if (!node->has_matrix)
         return limni_transform_make(node->translation, node->rotation, node->scale);
     limni_transform t;
@@ -120,21 +119,20 @@ bool limni_transform_round(const limni_transform *t, float rows[3][4]) {
 
 // ---- The tree
 
-static limn_bake_status refuse_node(const limni_gltf_reader *reader, uint32_t node,
+static limn_bake_status refuse_node(const limni_model_reader *reader, uint32_t node,
                                     const char *text) {
-    limni_gltf_label label;
-    return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT, "%s: %s: %s", reader->document->path,
-                      limni_gltf_name(label, "node", node, reader->document->nodes[node].name),
-                      text);
+    limni_label label;
+    return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT, "%s: %s: %s", reader->model->path,
+                      limni_label_make(label, "node", node, reader->model->nodes[node].name), text);
 }
 
-static limn_bake_status find_parents(limni_gltf_reader *reader) {
-    const limni_gltf *const document = reader->document;
-    for (uint32_t n = 0; n < document->node_count; n++) {
-        const limni_gltf_node *const node = &document->nodes[n];
+static limn_bake_status find_parents(limni_model_reader *reader) {
+    const limni_model *const model = reader->model;
+    for (uint32_t n = 0; n < model->node_count; n++) {
+        const limni_model_node *const node = &model->nodes[n];
         for (uint32_t c = 0; c < node->child_count; c++) {
             const int child = node->children[c];
-            if (child < 0 || (uint32_t)child >= document->node_count)
+            if (child < 0 || (uint32_t)child >= model->node_count)
                 return refuse_node(reader, n, "it has a child that does not exist");
             if (reader->places[child].parent != LIMN_FORMAT_NONE)
                 return refuse_node(reader, (uint32_t)child, "it is a child of two nodes, or twice");
@@ -145,27 +143,26 @@ static limn_bake_status find_parents(limni_gltf_reader *reader) {
 }
 
 /// Depth first. Nodes that are their own ancestors are not met: nothing leads to them from a root.
-static limn_bake_status find_order(limni_gltf_reader *reader) {
-    const limni_gltf *const document = reader->document;
-    uint32_t *const waiting =
-        limni_allocate(reader->context, document->node_count, sizeof *waiting);
-    bool *const met = limni_allocate_zeroed(reader->context, document->node_count, sizeof *met);
+static limn_bake_status find_order(limni_model_reader *reader) {
+    const limni_model *const model = reader->model;
+    uint32_t *const waiting = limni_allocate(reader->context, model->node_count, sizeof *waiting);
+    bool *const met = limni_allocate_zeroed(reader->context, model->node_count, sizeof *met);
     if (!waiting || !met) return LIMN_BAKE_MEMORY;
     uint32_t count = 0;
-    for (uint32_t root = 0; root < document->node_count; root++) {
+    for (uint32_t root = 0; root < model->node_count; root++) {
         if (reader->places[root].parent != LIMN_FORMAT_NONE) continue;
         uint32_t waiting_count = 0;
         waiting[waiting_count++] = root;
         while (waiting_count) {
             const uint32_t n = waiting[--waiting_count];
-            const limni_gltf_node *const node = &document->nodes[n];
+            const limni_model_node *const node = &model->nodes[n];
             reader->order[count++] = n;
             met[n] = true;
             for (uint32_t c = node->child_count; c-- > 0;)
                 waiting[waiting_count++] = (uint32_t)node->children[c];
         }
     }
-    for (uint32_t n = 0; n < document->node_count; n++) {
+    for (uint32_t n = 0; n < model->node_count; n++) {
         if (!met[n]) return refuse_node(reader, n, "it is its own ancestor, or hangs on one");
     }
     limni_release(reader->context, waiting);
@@ -173,36 +170,36 @@ static limn_bake_status find_order(limni_gltf_reader *reader) {
     return LIMN_BAKE_OK;
 }
 
-static limn_bake_status mark_scene(limni_gltf_reader *reader) {
-    const limni_gltf *const document = reader->document;
-    for (uint32_t r = 0; r < document->root_count; r++) {
-        const int root = document->roots[r];
-        if (root < 0 || (uint32_t)root >= document->node_count)
+static limn_bake_status mark_scene(limni_model_reader *reader) {
+    const limni_model *const model = reader->model;
+    for (uint32_t r = 0; r < model->root_count; r++) {
+        const int root = model->roots[r];
+        if (root < 0 || (uint32_t)root >= model->node_count)
             return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT,
-                              "%s: the scene has node %d, but there are %u", document->path, root,
-                              document->node_count);
+                              "%s: the scene has node %d, but there are %u", model->path, root,
+                              model->node_count);
         reader->places[root].in_scene = true;
     }
-    for (uint32_t n = 0; n < document->node_count && !document->has_scene; n++)
+    for (uint32_t n = 0; n < model->node_count && !model->has_scene; n++)
         reader->places[n].in_scene = true;
     return LIMN_BAKE_OK;
 }
 
-static void mark_moving(limni_gltf_reader *reader) {
-    const limni_gltf *const document = reader->document;
-    for (uint32_t a = 0; a < document->animation_count; a++) {
-        const limni_gltf_animation *const animation = &document->animations[a];
+static void mark_moving(limni_model_reader *reader) {
+    const limni_model *const model = reader->model;
+    for (uint32_t a = 0; a < model->animation_count; a++) {
+        const limni_model_animation *const animation = &model->animations[a];
         for (uint32_t c = 0; c < animation->channel_count; c++) {
-            const limni_gltf_channel *const channel = &animation->channels[c];
-            if (channel->node >= 0 && (uint32_t)channel->node < document->node_count &&
-                strcmp(channel->path, "weights") != 0)
+            const limni_model_channel *const channel = &animation->channels[c];
+            if (channel->node >= 0 && (uint32_t)channel->node < model->node_count &&
+                channel->path != LIMN_FORMAT_TARGET_WEIGHTS)
                 reader->places[channel->node].moves = true;
         }
     }
 }
 
 /// Whether floats hold where a node is, and how it turns.
-static bool is_finite(const limni_gltf_node *node, const limni_transform *local,
+static bool is_finite(const limni_model_node *node, const limni_transform *local,
                       const limni_transform *global) {
     float rounded[3][4];
     bool finite = limni_transform_round(local, rounded) && limni_transform_round(global, rounded);
@@ -211,9 +208,9 @@ static bool is_finite(const limni_gltf_node *node, const limni_transform *local,
     return finite;
 }
 
-limn_bake_status limni_gltf_read_nodes(limni_gltf_reader *reader) {
-    const limni_gltf *const document = reader->document;
-    const uint32_t count = document->node_count;
+limn_bake_status limni_model_read_nodes(limni_model_reader *reader) {
+    const limni_model *const model = reader->model;
+    const uint32_t count = model->node_count;
     reader->places = limni_allocate_zeroed(reader->context, count, sizeof *reader->places);
     reader->order = limni_allocate(reader->context, count, sizeof *reader->order);
     if (!reader->places || !reader->order) return LIMN_BAKE_MEMORY;
@@ -225,13 +222,13 @@ limn_bake_status limni_gltf_read_nodes(limni_gltf_reader *reader) {
     LIMNI_TRY(mark_scene(reader));
     mark_moving(reader);
     for (uint32_t o = 0; o < count; o++) {
-        limni_gltf_place *const place = &reader->places[reader->order[o]];
-        const limni_gltf_node *const node = &document->nodes[reader->order[o]];
-        const limni_transform local = limni_gltf_local(node);
+        limni_model_place *const place = &reader->places[reader->order[o]];
+        const limni_model_node *const node = &model->nodes[reader->order[o]];
+        const limni_transform local = limni_model_local(node);
         if (node->mistake) return refuse_node(reader, reader->order[o], node->mistake);
         place->global = local;
         if (place->parent != LIMN_FORMAT_NONE) {
-            const limni_gltf_place *const parent = &reader->places[place->parent];
+            const limni_model_place *const parent = &reader->places[place->parent];
             place->global = limni_transform_multiply(&parent->global, &local);
             place->in_scene |= parent->in_scene;
             place->moves |= parent->moves;

@@ -4,7 +4,7 @@
  * hang on. A joint has one inverse bind matrix; where skins bind a node differently, it gets further
  * joints, which hang on the first and do not move by themselves.
  */
-#include "gltf_reader.h"
+#include "model_reader.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -18,7 +18,7 @@ typedef struct bind {
 } bind;
 
 typedef struct binder {
-    limni_gltf_reader *reader;
+    limni_model_reader *reader;
     limni_list binds;
     uint32_t *first;     ///< [node_count] of the binds, or LIMN_FORMAT_NONE
     uint32_t **of_skins; ///< [skin_count][joint_count] binds; NULL: the skin is not in use
@@ -47,7 +47,7 @@ static limn_bake_status find_bind(binder *b, uint32_t node, const float matrix[3
 }
 
 /// The node and all above it.
-static void need(const limni_gltf_reader *reader, uint32_t node) {
+static void need(const limni_model_reader *reader, uint32_t node) {
     for (; node != LIMN_FORMAT_NONE && !reader->places[node].needed;
          node = reader->places[node].parent)
         reader->places[node].needed = true;
@@ -55,66 +55,35 @@ static void need(const limni_gltf_reader *reader, uint32_t node) {
 
 // ---- Skins
 
-/// Columns of a matrix of 4 by 4, of which the last row must be 0, 0, 0, 1.
-static bool take_matrix(const float *columns, float rows[3][4]) {
-    for (int i = 0; i < 12; i++)
-        rows[i / 4][i % 4] = columns[4 * (i % 4) + i / 4];
-    return columns[3] == 0 && columns[7] == 0 && columns[11] == 0 && columns[15] == 1;
-}
-
-static limn_bake_status read_inverse_binds(const limni_gltf_reader *reader, uint32_t index,
-                                           float (**matrices)[16]) {
-    const limni_gltf_skin *const skin = &reader->document->skins[index];
-    limni_gltf_label label;
-    char what[128];
-    snprintf(what, sizeof what, "inverse bind matrices of %s",
-             limni_gltf_name(label, "skin", index, skin->name));
-    const limni_gltf_accessor *accessor;
-    LIMNI_TRY(limni_gltf_find_accessor(reader, skin->inverse_binds, what, &accessor));
-    // There may be more than joints.
-    const uint64_t most = UINT16_MAX + 1u, given = accessor->count < most ? accessor->count : most;
-    const uint64_t count = given > skin->joint_count ? given : skin->joint_count;
-    *matrices = limni_allocate(reader->context, (size_t)count, sizeof **matrices);
-    if (!*matrices) return LIMN_BAKE_MEMORY;
-    return limni_gltf_read_floats(reader, skin->inverse_binds, what, count, 16, (*matrices)[0]);
-}
-
 static limn_bake_status bind_skin(binder *b, uint32_t index) {
-    limni_gltf_reader *const reader = b->reader;
-    const limni_gltf_skin *const skin = &reader->document->skins[index];
-    const char *const path = reader->document->path;
-    limni_gltf_label label;
-    float(*matrices)[16] = NULL;
-    limni_gltf_name(label, "skin", index, skin->name);
+    limni_model_reader *const reader = b->reader;
+    const limni_model_skin *const skin = &reader->model->skins[index];
+    const char *const path = reader->model->path;
+    limni_label label;
+    limni_label_make(label, "skin", index, skin->name);
     if (skin->joint_count == 0)
         return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT, "%s: %s has no joints", path,
                           label);
     b->of_skins[index] = limni_allocate(reader->context, skin->joint_count, sizeof(uint32_t));
     if (!b->of_skins[index]) return LIMN_BAKE_MEMORY;
-    if (skin->inverse_binds >= 0) LIMNI_TRY(read_inverse_binds(reader, index, &matrices));
     for (uint32_t j = 0; j < skin->joint_count; j++) {
-        float rows[3][4];
-        memcpy(rows, identity, sizeof rows);
-        if (skin->joints[j] < 0 || (uint32_t)skin->joints[j] >= reader->document->node_count)
+        if (skin->joints[j] < 0 || (uint32_t)skin->joints[j] >= reader->model->node_count)
             return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT,
                               "%s: %s: its joint %u is node %d, but there are %u", path, label, j,
-                              skin->joints[j], reader->document->node_count);
-        if (matrices && !take_matrix(matrices[j], rows))
-            return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT,
-                              "%s: %s: the last row of inverse bind matrix %u is not 0, 0, 0, 1",
-                              path, label, j);
+                              skin->joints[j], reader->model->node_count);
         need(reader, (uint32_t)skin->joints[j]);
-        LIMNI_TRY(find_bind(b, (uint32_t)skin->joints[j], (const float(*)[4])rows,
-                            &b->of_skins[index][j]));
+        LIMNI_TRY(
+            find_bind(b, (uint32_t)skin->joints[j],
+                      skin->inverse_binds ? (const float(*)[4])skin->inverse_binds[j] : identity,
+                      &b->of_skins[index][j]));
     }
-    limni_release(reader->context, matrices);
     return LIMN_BAKE_OK;
 }
 
 /// A mesh without a skin that moves: a skin of one joint. Its points are placed at rest, so that they
 /// are where they belong without a pose, unless that cannot be undone.
 static limn_bake_status bind_whole(binder *b, uint32_t node) {
-    limni_gltf_place *const place = &b->reader->places[node];
+    limni_model_place *const place = &b->reader->places[node];
     limni_transform inverse;
     float rows[3][4];
     if (!limni_transform_invert(&place->global, &inverse) ||
@@ -129,22 +98,22 @@ static limn_bake_status bind_whole(binder *b, uint32_t node) {
 }
 
 static limn_bake_status bind_meshes(binder *b) {
-    limni_gltf_reader *const reader = b->reader;
-    const limni_gltf *const document = reader->document;
-    for (uint32_t o = 0; o < document->node_count; o++) {
+    limni_model_reader *const reader = b->reader;
+    const limni_model *const model = reader->model;
+    for (uint32_t o = 0; o < model->node_count; o++) {
         const uint32_t n = reader->order[o];
-        const limni_gltf_node *const node = &document->nodes[n];
-        limni_gltf_label label;
+        const limni_model_node *const node = &model->nodes[n];
+        limni_label label;
         if (node->mesh < 0 || !reader->places[n].in_scene) continue;
         if (node->skin < 0) {
             if (reader->places[n].moves) LIMNI_TRY(bind_whole(b, n));
             continue;
         }
-        if ((uint32_t)node->skin >= document->skin_count)
+        if ((uint32_t)node->skin >= model->skin_count)
             return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT,
-                              "%s: %s: it has skin %d, but there are %u", document->path,
-                              limni_gltf_name(label, "node", n, node->name), node->skin,
-                              document->skin_count);
+                              "%s: %s: it has skin %d, but there are %u", model->path,
+                              limni_label_make(label, "node", n, node->name), node->skin,
+                              model->skin_count);
         if (!b->of_skins[node->skin]) LIMNI_TRY(bind_skin(b, (uint32_t)node->skin));
     }
     return LIMN_BAKE_OK;
@@ -152,21 +121,21 @@ static limn_bake_status bind_meshes(binder *b) {
 
 // ---- Joints
 
-static limn_bake_status add_joint(limni_gltf_reader *reader, uint32_t node, uint32_t parent,
+static limn_bake_status add_joint(limni_model_reader *reader, uint32_t node, uint32_t parent,
                                   const float matrix[3][4], bool still) {
     limni_character *const character = reader->scene->character;
-    const limni_gltf_node *const from = &reader->document->nodes[node];
-    const limni_transform local = limni_gltf_local(from);
+    const limni_model_node *const from = &reader->model->nodes[node];
+    const limni_transform local = limni_model_local(from);
     limn_file_joint joint = {.parent = parent, .rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
-    limni_gltf_label label;
+    limni_label label;
     double translation[3], rotation[4], scale[3];
-    limni_gltf_name(label, "node", node, from->name);
+    limni_label_make(label, "node", node, from->name);
     if (character->joints.count > UINT16_MAX)
         return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT, "%s: more than %u joints",
-                          reader->document->path, UINT16_MAX + 1u);
+                          reader->model->path, UINT16_MAX + 1u);
     if (!limni_transform_decompose(&local, translation, rotation, scale) && !still)
-        limni_note(reader->context, "%s: %s: the shear of its matrix is lost",
-                   reader->document->path, label);
+        limni_note(reader->context, "%s: %s: the shear of its matrix is lost", reader->model->path,
+                   label);
     for (int i = 0; i < 4 && !still; i++) {
         joint.rotation[i] = (float)(from->has_matrix ? rotation[i] : from->rotation[i]);
         if (i == 3) break;
@@ -179,26 +148,26 @@ static limn_bake_status add_joint(limni_gltf_reader *reader, uint32_t node, uint
     return limni_list_add(reader->context, &character->joints, &joint, 1, sizeof joint);
 }
 
-static limn_bake_status check_depth(const limni_gltf_reader *reader, uint32_t node) {
+static limn_bake_status check_depth(const limni_model_reader *reader, uint32_t node) {
     uint32_t depth = 1; // a further joint may hang on it
-    limni_gltf_label label;
+    limni_label label;
     for (uint32_t n = node; n != LIMN_FORMAT_NONE; n = reader->places[n].parent) {
         if (++depth > LIMN_FORMAT_DEPTH_OF_JOINTS)
             return limni_fail(
                 reader->context, LIMN_BAKE_BAD_INPUT, "%s: %s: more than %u joints above it",
-                reader->document->path,
-                limni_gltf_name(label, "node", node, reader->document->nodes[node].name),
+                reader->model->path,
+                limni_label_make(label, "node", node, reader->model->nodes[node].name),
                 LIMN_FORMAT_DEPTH_OF_JOINTS - 2);
     }
     return LIMN_BAKE_OK;
 }
 
 static limn_bake_status add_joints(binder *b) {
-    limni_gltf_reader *const reader = b->reader;
+    limni_model_reader *const reader = b->reader;
     const uint32_t *const count = &reader->scene->character->joints.count;
-    for (uint32_t o = 0; o < reader->document->node_count; o++) {
+    for (uint32_t o = 0; o < reader->model->node_count; o++) {
         const uint32_t n = reader->order[o];
-        limni_gltf_place *const place = &reader->places[n];
+        limni_model_place *const place = &reader->places[n];
         if (!place->needed) continue;
         LIMNI_TRY(check_depth(reader, n));
         const uint32_t parent = place->parent == LIMN_FORMAT_NONE
@@ -222,28 +191,27 @@ static limn_bake_status add_joints(binder *b) {
 
 /// Joints in the place of binds.
 static void list_joints(binder *b) {
-    limni_gltf_reader *const reader = b->reader;
+    limni_model_reader *const reader = b->reader;
     const bind *const binds = b->binds.items;
-    for (uint32_t s = 0; s < reader->document->skin_count; s++) {
-        for (uint32_t j = 0; b->of_skins[s] && j < reader->document->skins[s].joint_count; j++)
+    for (uint32_t s = 0; s < reader->model->skin_count; s++) {
+        for (uint32_t j = 0; b->of_skins[s] && j < reader->model->skins[s].joint_count; j++)
             b->of_skins[s][j] = binds[b->of_skins[s][j]].joint;
     }
-    for (uint32_t n = 0; n < reader->document->node_count; n++) {
+    for (uint32_t n = 0; n < reader->model->node_count; n++) {
         if (b->of_nodes[n] != LIMN_FORMAT_NONE) b->of_nodes[n] = binds[b->of_nodes[n]].joint;
     }
     reader->skin_joints = b->of_skins;
     reader->whole_joints = b->of_nodes;
 }
 
-limn_bake_status limni_gltf_read_skeleton(limni_gltf_reader *reader) {
-    const limni_gltf *const document = reader->document;
-    const uint32_t count = document->node_count;
+limn_bake_status limni_model_read_skeleton(limni_model_reader *reader) {
+    const limni_model *const model = reader->model;
+    const uint32_t count = model->node_count;
     binder b = {
         .reader = reader,
         .first = limni_allocate(reader->context, count, sizeof *b.first),
         .of_nodes = limni_allocate(reader->context, count, sizeof *b.of_nodes),
-        .of_skins =
-            limni_allocate_zeroed(reader->context, document->skin_count, sizeof *b.of_skins),
+        .of_skins = limni_allocate_zeroed(reader->context, model->skin_count, sizeof *b.of_skins),
     };
     if (!b.first || !b.of_nodes || !b.of_skins) return LIMN_BAKE_MEMORY;
     memset(b.first, 0xff, count * sizeof *b.first);
