@@ -14,11 +14,9 @@
 
 static const char help[] =
     "Usage: limn bake IN... -o OUT.limn [OPTIONS]\n\n"
-    "Bakes one or more meshes (.obj, .off, .ply, .gltf, .glb) into one .limn file. The meshes "
-    "share\n"
-    "their stencil tables. Of glTF all meshes of the scene are baked, with skeleton, morph "
-    "targets,\n"
-    "clips and materials.\n\n"
+    "Bakes one or more meshes (.obj, .off, .ply, .gltf, .glb, .fbx, .dae) into one .limn file.\n"
+    "The meshes share their stencil tables. Of glTF, FBX and Collada all meshes of the scene are\n"
+    "baked, with skeleton, morph targets, clips and materials.\n\n"
     "Loop's scheme and the butterfly cut polygons into triangles, quads along the shorter "
     "diagonal;\n"
     "catmark and none take them as they are. Nothing is written unless all is well.\n\n"
@@ -268,8 +266,9 @@ static int parse(int argc, char **argv, arguments *given) {
 
 /// A mesh's name in the place of the output is a slip that would cost the mesh.
 static bool is_mesh_name(const char *path) {
-    static const char *const extensions[] = {".obj", ".off", ".ply", ".gltf", ".glb"};
-    for (int e = 0; e < 5; e++) {
+    static const char *const extensions[] = {".obj", ".off", ".ply", ".gltf",
+                                             ".glb", ".fbx", ".dae"};
+    for (size_t e = 0; e < sizeof extensions / sizeof *extensions; e++) {
         if (limni_has_extension(path, extensions[e])) return true;
     }
     return false;

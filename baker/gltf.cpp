@@ -2,6 +2,8 @@
 /* The only file that knows tinygltf: copies its model into plain structs. */
 #include "gltf.h"
 
+#include "beside.h"
+
 #include <tiny_gltf.h>
 
 #include <sys/stat.h>
@@ -315,16 +317,13 @@ struct surroundings {
     std::string mistake; ///< of the file that was asked for last
 };
 
-bool climbs(const std::string &path) {
-    return ("/" + path + "/").find("/../") != std::string::npos;
-}
-
 /// What is wrong with a file by its path, relative to the folder; "": nothing.
 std::string find_mistake(const std::string &folder, const std::string &path) {
     struct stat information;
     if (path.empty()) return "it names no file";
     if (is_data(path)) return "its data URI has a type that is not read";
-    if (path[0] == '/' || climbs(path)) return "'" + path + "' leaves the folder of the document";
+    if (limni_leaves_folder(path.c_str()))
+        return "'" + path + "' leaves the folder of the document";
     if (stat((folder + "/" + path).c_str(), &information) != 0)
         return "'" + path + "' cannot be found";
     if (!S_ISREG(information.st_mode)) return "'" + path + "' is not a regular file";

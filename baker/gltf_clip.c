@@ -41,7 +41,7 @@ static limn_bake_status read_keys(const reading *r) {
     limni_model_channel *const to = r->to;
     const bool weights = to->path == LIMN_FORMAT_TARGET_WEIGHTS;
     const limni_gltf_accessor *times;
-    char what[192];
+    char what[224];
     snprintf(what, sizeof what, "%s, times", to->label);
     LIMNI_TRY(limni_gltf_find_accessor(r->reader, r->from->input, what, &times));
     if (times->count >= 1u << 24) return refuse(r, "it has too many keys");

@@ -10,7 +10,7 @@ static const struct {
     int (*run)(int argc, char **argv);
     const char *summary;
 } commands[] = {
-    {"bake", limni_command_bake, "turn meshes (.obj, .off, .ply, .gltf, .glb) into one .limn file"},
+    {"bake", limni_command_bake, "turn meshes (.obj, .gltf, .fbx and others) into one .limn file"},
     {"convert", limni_command_convert, "write a mesh in another format (.obj, .off, .ply)"},
     {"info", limni_command_info, "say what is in a .limn file"},
     {"export", limni_command_export, "evaluate a .limn file into a dense mesh (.obj, .ply)"},

@@ -85,7 +85,7 @@ typedef struct limni_model_skin {
 
 /// Keys of one thing that moves.
 typedef struct limni_model_channel {
-    char label[160]; ///< "animation 0 'walk', channel 3"
+    char label[192]; ///< "animation 0 'walk', channel 3"
     int node;
     uint8_t path, interpolation; ///< as those of limn_file_track
     uint32_t width;              ///< of a value; of weights, as many as there are targets

@@ -10,6 +10,8 @@
 
 typedef limn_bake_status read_text_fn(limni_context *context, const char *text, size_t size,
                                       limni_source *source);
+typedef limn_bake_status read_scene_fn(limni_context *context, const char *path, const char *name,
+                                       const char *bytes, size_t size, limni_scene *scene);
 
 static const char *find_file_name(const char *path) {
     const char *slash = strrchr(path, '/');
@@ -37,14 +39,22 @@ bool limni_has_extension(const char *path, const char *lower) {
     return equal_without_case(find_extension(find_file_name(path)), lower);
 }
 
-static read_text_fn *find_reader(const char *path) {
-    static const struct {
-        const char *extension;
-        read_text_fn *read;
-    } readers[] = {{".obj", limni_read_obj}, {".off", limni_read_off}, {".ply", limni_read_ply}};
+/// Of one mesh, or of a scene: the other is NULL.
+typedef struct format {
+    const char *extension;
+    read_text_fn *read_mesh;
+    read_scene_fn *read_scene;
+} format;
 
-    for (size_t reader = 0; reader < sizeof readers / sizeof readers[0]; reader++) {
-        if (limni_has_extension(path, readers[reader].extension)) return readers[reader].read;
+static const format *find_format(const char *path) {
+    static const format formats[] = {
+        {".obj", limni_read_obj, NULL},    {".off", limni_read_off, NULL},
+        {".ply", limni_read_ply, NULL},    {".gltf", NULL, limni_read_gltf},
+        {".glb", NULL, limni_read_gltf},   {".fbx", NULL, limni_read_assimp},
+        {".dae", NULL, limni_read_assimp},
+    };
+    for (size_t f = 0; f < sizeof formats / sizeof *formats; f++) {
+        if (limni_has_extension(path, formats[f].extension)) return &formats[f];
     }
     return NULL;
 }
@@ -102,20 +112,17 @@ static limn_bake_status load(limni_context *context, const char *path, size_t si
     return LIMN_BAKE_OK;
 }
 
-static bool is_gltf(const char *path) {
-    return limni_has_extension(path, ".gltf") || limni_has_extension(path, ".glb");
-}
-
-/// One source, but of glTF as many as there are meshes.
+/// One source, but of a scene as many as there are meshes.
 static limn_bake_status read_text(limni_context *context, const char *text, size_t size,
-                                  read_text_fn *read, const limni_source *named,
+                                  const format *kind, const limni_source *named,
                                   limni_scene *scene) {
-    if (!read) return limni_read_gltf(context, named->path, named->name, text, size, scene);
+    if (kind->read_scene)
+        return kind->read_scene(context, named->path, named->name, text, size, scene);
     scene->source_count = 1;
     scene->sources = limni_allocate(context, 1, sizeof *scene->sources);
     if (!scene->sources) return LIMN_BAKE_MEMORY;
     scene->sources[0] = *named;
-    return read(context, text, size, scene->sources);
+    return kind->read_mesh(context, text, size, scene->sources);
 }
 
 limn_bake_status limni_read_scene(limni_context *context, const char *path, limni_scene *scene) {
@@ -123,16 +130,17 @@ limn_bake_status limni_read_scene(limni_context *context, const char *path, limn
     size_t size = 0;
     scene->source_count = 0;
     LIMNI_TRY(find_size(context, path, &size));
-    read_text_fn *const read = find_reader(path);
-    if (!read && !is_gltf(path))
+    const format *const kind = find_format(path);
+    if (!kind)
         return limni_fail(context, LIMN_BAKE_BAD_INPUT,
-                          "%s: unknown kind of file; .obj, .off, .ply, .gltf and .glb are read",
+                          "%s: unknown kind of file; .obj, .off, .ply, .gltf, .glb, .fbx and .dae "
+                          "are read",
                           path);
     LIMNI_TRY(name_source(context, path, &named));
     char *const text = limni_allocate(context, size + 1, 1);
     if (!text) return LIMN_BAKE_MEMORY;
     LIMNI_TRY(load(context, path, size, text));
-    LIMNI_TRY(read_text(context, text, size, read, &named, scene));
+    LIMNI_TRY(read_text(context, text, size, kind, &named, scene));
     limni_release(context, text);
     return LIMN_BAKE_OK;
 }

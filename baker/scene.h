@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* All that a file has to bake: of most formats one mesh, of glTF several and their characters. */
+/* All that a file has to bake: of most formats one mesh, of glTF, FBX and
+ * Collada several and their characters. */
 #ifndef LIMNI_SCENE_H
 #define LIMNI_SCENE_H
 
@@ -13,8 +14,8 @@ typedef struct limni_scene {
     limni_character *character; ///< in: what joints, clips and materials are appended to
 } limni_scene;
 
-/// Reads a file by its extension, .obj, .off, .ply, .gltf or .glb (in any case). The arrays belong
-/// to the context.
+/// Reads a file by its extension, .obj, .off, .ply, .gltf, .glb, .fbx or .dae (in any case). The
+/// arrays belong to the context.
 limn_bake_status limni_read_scene(limni_context *context, const char *path, limni_scene *scene);
 
 /// A glTF document, and what lies beside `path`.
@@ -22,5 +23,9 @@ limn_bake_status limni_read_scene(limni_context *context, const char *path, limn
 /// name  of the file, for meshes without one
 limn_bake_status limni_read_gltf(limni_context *context, const char *path, const char *name,
                                  const char *bytes, size_t size, limni_scene *scene);
+
+/// An FBX document, if `path` ends with .fbx, else a Collada document; and what lies beside it.
+limn_bake_status limni_read_assimp(limni_context *context, const char *path, const char *name,
+                                   const char *bytes, size_t size, limni_scene *scene);
 
 #endif

@@ -83,8 +83,8 @@ typedef struct limni_source {
     limni_tags tags;
 } limni_source;
 
-/// Reads the mesh of a file by its extension, .obj, .off, .ply, .gltf or .glb (in any case). Fails
-/// where there are several. The arrays belong to the context.
+/// Reads the mesh of a file by its extension, as limni_read_scene() does. Fails where there are
+/// several. The arrays belong to the context.
 limn_bake_status limni_read_file(limni_context *context, const char *path, limni_source *source);
 
 /// The same, but of several meshes the first with this name.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # limn_bake(): bakes meshes at build time, as part of a target.
 #
-#   limn_bake(TARGET <target> SOURCES <mesh.obj|.off|.ply|.gltf|.glb>... [OUTPUT <file.limn>]
+#   limn_bake(TARGET <target> SOURCES <mesh.obj|.off|.ply|.gltf|.glb|.fbx|.dae>... [OUTPUT <file.limn>]
 #             [C_ARRAY <name>] [OPTIONS <option>...])
 #
 # TARGET   an existing target; the file is there before anything of it is built

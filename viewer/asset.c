@@ -6,7 +6,7 @@
 #include <strings.h>
 
 static bool is_mesh_file(const char *path) {
-    static const char *const endings[] = {".obj", ".off", ".ply", ".gltf", ".glb"};
+    static const char *const endings[] = {".obj", ".off", ".ply", ".gltf", ".glb", ".fbx", ".dae"};
     const char *const ending = strrchr(path, '.');
     for (size_t e = 0; ending && e < sizeof endings / sizeof *endings; e++) {
         if (strcasecmp(ending, endings[e]) == 0) return true;

@@ -16,8 +16,9 @@ typedef struct view_asset {
     struct limn_baker *baker; ///< whose they are
 } view_asset;
 
-/// Files ending in .obj, .off, .ply, .gltf or .glb are baked as by `limn bake --normals exact
-/// --isolate auto --repair --non-manifold split`, and what is noted is printed. Reports why and returns false on failure; close the asset in either case.
+/// Files ending in .obj, .off, .ply, .gltf, .glb, .fbx or .dae are baked as by `limn bake --normals
+/// exact --isolate auto --repair --non-manifold split`, and what is noted is printed. Reports why and
+/// returns false on failure; close the asset in either case.
 bool view_asset_open(view_asset *asset, const char *path);
 
 void view_asset_close(view_asset *asset);

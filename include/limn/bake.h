@@ -196,9 +196,9 @@ limn_baker *limn_baker_create(const limn_bake_desc *desc);
 /// Frees a baker, and the blob that belongs to it.
 void limn_baker_destroy(limn_baker *baker);
 
-/// Adds the mesh in an .obj, .off or .ply file, named after the file; or of a .gltf or .glb file all
-/// meshes of its scene, named after their nodes, with skeleton, clips and materials. After an error
-/// the baker can only be destroyed.
+/// Adds the mesh in an .obj, .off or .ply file, named after the file; or of a .gltf, .glb, .fbx or
+/// .dae file all meshes of its scene, named after their nodes, with skeleton, clips and materials.
+/// After an error the baker can only be destroyed.
 limn_bake_status limn_baker_add_file(limn_baker *baker, const char *path);
 
 /// Adds a mesh from memory, copying it. Errors name faces and vertices by index from 0. Tags of

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Reading glTF, text or binary, with what moves and colours its meshes; and each mesh through all
- * repairs to the control mesh and what moves its points.
+ * Reading a scene, by FUZZ_READ as a file with the name FUZZ_PATH, with what moves and colours its
+ * meshes; and each mesh through all repairs to the control mesh and what moves its points.
  */
 #include "../../baker/rig.h"
 #include "../../baker/scene.h"
@@ -83,8 +83,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
     FUZZ_REQUIRE(text);
     if (size > 0) memcpy(text, bytes, size);
     text[size] = '\0';
-    const limn_bake_status status =
-        limni_read_gltf(&context, "fuzz.gltf", "fuzz", text, size, &scene);
+    const limn_bake_status status = FUZZ_READ(&context, FUZZ_PATH, "fuzz", text, size, &scene);
     FUZZ_REQUIRE(status == LIMN_BAKE_OK || status == LIMN_BAKE_BAD_INPUT);
     FUZZ_REQUIRE((status == LIMN_BAKE_OK) == (context.error[0] == '\0'));
     free(text);
