@@ -379,16 +379,23 @@ std::string name_buffer(const std::string &words, const tinygltf::Model &model,
     return words;
 }
 
-std::string json_of(const char *bytes, size_t size, bool binary) {
-    const size_t header = binary ? 20 : 0;
-    uint32_t length = 0;
-    if (binary) std::memcpy(&length, bytes + 12, sizeof length);
-    return std::string(bytes + header, binary ? length : size);
+/// Four bytes of a .glb.
+uint32_t length_at(const char *bytes, size_t at) {
+    uint32_t length;
+    std::memcpy(&length, bytes + at, sizeof length);
+    return length;
 }
 
-/// Whether a whole number from 0 on follows wherever good JSON has a name: tinygltf takes others
-/// for 0.
-bool are_counts(const std::string &json, const char *name) {
+std::string json_of(const char *bytes, size_t size, bool binary) {
+    const size_t header = binary ? 20 : 0;
+    return std::string(bytes + header, binary ? length_at(bytes, 12) : size);
+}
+
+/// Whether a whole number that 32 bits hold follows wherever good JSON has a name: tinygltf takes
+/// others for 0, or cuts them off.
+///
+/// alone  only numbers are looked at: an application may have something of its own by this name
+bool are_counts(const std::string &json, const char *name, bool alone) {
     const char *const blanks = " \t\r\n";
     const std::string quoted = "\"" + std::string(name) + "\"";
     for (size_t at = 0; (at = json.find(quoted, at)) != std::string::npos;) {
@@ -396,9 +403,28 @@ bool are_counts(const std::string &json, const char *name) {
         if (json[at] != ':') continue; // the name is a text
         at = json.find_first_not_of(blanks, at + 1);
         const size_t end = json.find_first_not_of("0123456789", at);
-        if (end == at || end - at > 19 || std::strchr(".eE", json[end])) return false;
+        const bool whole = end != at && !std::strchr(".eE", json[end]);
+        if (whole ? end - at > 10 || std::stoull(json.substr(at, end - at)) > UINT32_MAX : !alone)
+            return false;
     }
     return true;
+}
+
+/// What is wrong with the lengths in a .glb; "": nothing.
+std::string find_cut(const char *bytes, size_t size) {
+    const std::string sizes = std::to_string(size) + " bytes";
+    if (size < 20) return "it has " + sizes + ", and a header alone has 20";
+    if (length_at(bytes, 8) > size)
+        return "its header says " + std::to_string(length_at(bytes, 8)) + " bytes, but it has " +
+               sizes;
+    for (size_t at = 12; at + 8 <= size;) {
+        const size_t length = length_at(bytes, at);
+        if (length > size - at - 8)
+            return "a chunk of " + std::to_string(length) + " bytes from byte " +
+                   std::to_string(at + 8) + " on reaches beyond its " + sizes;
+        at += 8 + length;
+    }
+    return "";
 }
 
 bool load(const char *path, const char *bytes, size_t size, tinygltf::Model *model,
@@ -411,6 +437,7 @@ bool load(const char *path, const char *bytes, size_t size, tinygltf::Model *mod
         {is_beside, keep_path, tinygltf::ReadWholeFile, tinygltf::WriteWholeFile, &around});
     const bool binary = size >= 4 && std::memcmp(bytes, "glTF", 4) == 0;
     const unsigned int length = static_cast<unsigned int>(size);
+    if (binary && !(*error = find_cut(bytes, size)).empty()) return false;
     bool good =
         binary ? loader.LoadBinaryFromMemory(model, error, &warnings,
                                              reinterpret_cast<const unsigned char *>(bytes), length,
@@ -419,9 +446,11 @@ bool load(const char *path, const char *bytes, size_t size, tinygltf::Model *mod
     if (!good) *error = name_buffer(*error, *model, around);
     // What it says of colours and goes on without; it also complains of what is good.
     if (error->find("`baseColorFactor`") != std::string::npos) good = false;
-    for (const char *const name : {"byteOffset", "byteStride"}) {
-        if (!good || are_counts(json_of(bytes, size, binary), name)) continue;
-        *error = std::string(name) + " is not a whole number from 0 on";
+    const std::string json = json_of(bytes, size, binary);
+    for (const char *const name : {"byteOffset", "byteStride", "byteLength", "count"}) {
+        const bool alone = std::strcmp(name, "count") == 0 || std::strcmp(name, "byteLength") == 0;
+        if (!good || are_counts(json, name, alone)) continue;
+        *error = std::string(name) + " is not a whole number from 0 to 4294967295";
         good = false;
     }
     return good;

@@ -86,6 +86,24 @@ static limn_bake_status make_faces(const limni_model_vertices *v, uint32_t corne
     return LIMN_BAKE_OK;
 }
 
+/// Notes materials whose textures want texture coordinates that the mesh does not have.
+static void note_textures(const limni_model_vertices *v, const limni_source *source) {
+    const limni_model *const model = v->reader->model;
+    uint32_t uv_count = 0;
+    for (uint32_t c = 0; c < source->channel_count; c++)
+        uv_count += source->channels[c].kind == LIMN_CHANNEL_UV;
+    for (uint32_t p = 0; p < v->mesh->part_count; p++) {
+        const limni_model_part *const part = &v->mesh->parts[p];
+        if (part->material < 0) continue;
+        const limni_model_material *const material = &model->materials[part->material];
+        if (material->image < 0 || material->uv_set < uv_count) continue;
+        limni_note(v->reader->context,
+                   "%s: %s: the texture of its material '%s' needs set %u of texture coordinates, "
+                   "but the mesh has %u",
+                   model->path, part->label, material->name, material->uv_set, uv_count);
+    }
+}
+
 // ---- Place
 
 static void reverse_corners(uint32_t *corners, uint32_t count) {
@@ -171,6 +189,7 @@ static limn_bake_status read_mesh(limni_model_vertices *v) {
                           source->path);
     LIMNI_TRY(limni_model_read_vertices(v, source));
     LIMNI_TRY(make_faces(v, corner_count, source));
+    note_textures(v, source);
     LIMNI_TRY(limni_model_read_tags(v, &source->tags));
     LIMNI_TRY(place(v, source));
     reader->places[v->node_index].mesh = scene->first_mesh + scene->source_count;

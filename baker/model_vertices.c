@@ -131,6 +131,9 @@ static limn_bake_status describe_targets(const data *d, limni_rig *rig) {
     if (weight_count != 0 && weight_count != d->target_count)
         limni_note(context, "%s: %s: %u weights at rest for %u morph targets",
                    v->reader->model->path, v->label, weight_count, d->target_count);
+    if (v->mesh->target_name_count != 0 && v->mesh->target_name_count != d->target_count)
+        limni_note(context, "%s: %s: %u names for %u morph targets", v->reader->model->path,
+                   v->label, v->mesh->target_name_count, d->target_count);
     for (uint32_t t = 0; t < d->target_count; t++) {
         char numbered[32];
         snprintf(numbered, sizeof numbered, "target %u", t);

@@ -172,6 +172,7 @@ expect_different character_classes character_clay
 expect_different character_waves character_materials
 file=$imp
 
+expect_error 1 "$file" --png "$out" --colour uv # it has none
 expect_error 2 "$file" --png "$out" --colour red
 expect_error 2 "$file" --png "$out" --shade round
 expect_error 2 "$file" --png "$out" --light dim

@@ -3,6 +3,7 @@
 
 #include "context.h"
 #include "renderer.h"
+#include "report.h"
 #include "scene.h"
 #include "target.h"
 #include <string.h>
@@ -61,11 +62,20 @@ static bool draw_and_write(const view_scene *scene, const view_picture *picture)
     return done;
 }
 
+/// A picture of texture coordinates needs some; in a window one sees that there are none.
+static bool check_colours(const view_scene *scene, const view_picture *picture) {
+    bool has_uv = picture->colours != VIEW_COLOURS_UV;
+    for (uint32_t i = 0; i < scene->surface_count; i++)
+        has_uv |= scene->surfaces[i].has_uv;
+    return has_uv || view_fail("%s: --colour uv: there are no texture coordinates in what is drawn",
+                               picture->limn_path);
+}
+
 bool view_picture_make(const view_picture *picture) {
     view_scene scene;
     bool done = view_scene_open(&scene, picture->limn_path, &picture->frame, &picture->light,
                                 picture->mesh_index);
-    done = done && view_scene_evaluate(&scene);
+    done = done && check_colours(&scene, picture) && view_scene_evaluate(&scene);
     if (done) {
         view_context *const context = view_context_create();
         done = context && draw_and_write(&scene, picture);

@@ -4,6 +4,7 @@
 #include "limn/character.h"
 #include "normals.h"
 #include "report.h"
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -118,7 +119,14 @@ static bool find_materials(const limn_pack *pack, uint32_t mesh_index, view_surf
         const bool shown = range.material < VIEW_ALBEDO_LAYERS;
         memset(surface->materials + range.first_patch,
                shown ? (int)range.material : VIEW_ALBEDO_NONE, range.patch_count);
-        if (r == 0 && shown) uv_number = limn_pack_material(pack, range.material).texture_channel;
+        if (!shown) continue;
+        const limn_material material = limn_pack_material(pack, range.material);
+        if (r == 0) uv_number = material.texture_channel;
+        if (material.image_name && material.texture_channel != uv_number)
+            fprintf(stderr,
+                    "limn-view: note: mesh '%s': the texture of material '%s' is shown by the "
+                    "texture coordinates of the first material\n",
+                    surface->mesh.name, material.name);
     }
     find_uv(pack, uv_number, surface);
     return true;

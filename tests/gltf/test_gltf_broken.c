@@ -14,6 +14,7 @@ typedef struct outcome {
     char error[1024], notes[8192];
     uint32_t source_count, influence_count, position_count;
     uint32_t channel_count, value_counts[2]; ///< of the first mesh, as the next ones
+    float least_colour;                      ///< above 0
     limni_tags tags;
     char image_name[64]; ///< of the first image
     uint64_t image_size;
@@ -35,6 +36,15 @@ static uint32_t check_channel(const limni_source *source, uint32_t c) {
     for (uint32_t k = 0; k < source->face_offsets[source->face_count]; k++)
         CHECK(channel->corner_values[k] < channel->value_count);
     return channel->value_count;
+}
+
+static float find_least(const limni_source_channel *channel) {
+    float least = 1;
+    for (uint32_t i = 0; i < 3 * channel->value_count; i++) {
+        const float value = channel->values[i / 3][i % 3];
+        if (value > 0 && value < least) least = value;
+    }
+    return least;
 }
 
 /// Vertices 0 to 3 are the first four positions.
@@ -74,6 +84,7 @@ static outcome read_bytes(const unsigned char *bytes, size_t size) {
         o.channel_count = scene.sources[0].channel_count;
         for (uint32_t c = 0; c < o.channel_count && c < 2; c++)
             o.value_counts[c] = check_channel(&scene.sources[0], c);
+        if (o.channel_count > 1) o.least_colour = find_least(&scene.sources[0].channels[1]);
         check_creases(&scene.sources[0].tags);
         o.tags = scene.sources[0].tags;
         keep_image(&character, &o);
@@ -145,6 +156,9 @@ static const refusal refusals[] = {
      "28 are needed"},
     {"\"count\":7,\"indices\"", "\"count\":70,\"indices\"", "70 sparse elements of 28"},
     {"\"count\":7,\"indices\"", "\"count\":-7,\"indices\"", "sparse elements of 28"},
+    {"\"count\":7,\"indices\"", "\"count\":4294967303,\"indices\"",
+     "count is not a whole number from 0 to 4294967295"},
+    {"\"byteLength\":14}", "\"byteLength\":4294967310}", "byteLength is not a whole number"},
     {"\"bufferView\":0,\"componentType\":5123},\"values\"",
      "\"bufferView\":0,\"componentType\":5126},\"values\"",
      "its sparse indices have component type"},
@@ -152,17 +166,17 @@ static const refusal refusals[] = {
      "there is no buffer view 77"},
     {"\"byteLength\":14}", "\"byteLength\":140000}", "buffer view 0 reaches beyond buffer 0"},
     {"\"name\":\"wall uv\",\"bufferView\":3,",
-     "\"name\":\"wall uv\",\"bufferView\":3,\"byteOffset\":9007199254740992,",
-     "28 elements from byte 9007199254740992 on reach beyond buffer view 3, which has 224 bytes"},
+     "\"name\":\"wall uv\",\"bufferView\":3,\"byteOffset\":4294967292,",
+     "28 elements from byte 4294967292 on reach beyond buffer view 3, which has 224 bytes"},
     {"{\"buffer\":0,\"byteOffset\":0,", "{\"buffer\":5,\"byteOffset\":0,", "there is no buffer 5"},
     {"\"byteOffset\":0,\"byteLength\":14}", "\"byteOffset\":0,\"byteLength\":14,\"byteStride\":3}",
      "byteStride"},
     {"\"indices\":5,\"material\"", "\"indices\":3,\"material\"", "a.glb: "},
     {"\"POSITION\":1,", "\"POSITION\":99,", "there is no accessor 99"},
-    {"\"byteOffset\":0,", "\"byteOffset\" : -4,", "byteOffset is not a whole number from 0 on"},
-    {"\"byteOffset\":0,", "\"byteOffset\":1.5,", "byteOffset is not a whole number from 0 on"},
+    {"\"byteOffset\":0,", "\"byteOffset\" : -4,", "byteOffset is not a whole number from 0"},
+    {"\"byteOffset\":0,", "\"byteOffset\":1.5,", "byteOffset is not a whole number from 0"},
     {"\"byteOffset\":0,", "\"byteOffset\":0,\"byteStride\":\"4\",",
-     "byteStride is not a whole number from 0 on"},
+     "byteStride is not a whole number from 0"},
     // Meshes
     {"\"material\":1,", "\"material\":7,", "material 7, but there are 2"},
     {"\"targets\":[{\"POSITION\":10}]", "\"targets\":[]",
@@ -268,8 +282,7 @@ static void test_numbers(const glb *good) {
     o = read_with(good, moved, twice, sizeof moved);
     expect_refusal(&o, "sparse index 1 is 14, of 28 elements");
     o = read_with(good, wall, beyond, sizeof wall);
-    expect_refusal(&o,
-                   "mesh 0 'tube', primitive 0: face 0 has vertex 28, but there are 28");
+    expect_refusal(&o, "mesh 0 'tube', primitive 0: face 0 has vertex 28, but there are 28");
 }
 
 // ---- What is mended or passed over
@@ -302,6 +315,21 @@ static void test_images(glb *file) {
     CHECK_TEXT(o.image_name, "image 0");
     o = read_changed(file, TEXTURE, "\"uri\":\"data:image/jpeg;base64,/9j/\"");
     CHECK_EQUAL(o.image_size, 3);
+}
+
+/// What has no part in the good scene.
+static void test_odd(glb *file) {
+    outcome o = read_changed(file, "\"WEIGHTS_0\":4}", "\"WEIGHTS_0\":4,\"JOINTS_1\":3}");
+    expect_note(&o, "mesh 0 'tube', primitive 0: it has JOINTS_1 or WEIGHTS_1, but not both");
+    o = read_changed(file, "\"targetNames\":[", "\"targetNames\":[\"more\",");
+    expect_note(&o, "mesh 0 'tube': 2 names for 1 morph targets");
+    o = read_changed(file, "\"baseColorTexture\":{\"index\":0}",
+                     "\"baseColorTexture\":{\"index\":0,\"texCoord\":3}");
+    expect_note(&o, "mesh 0 'tube', primitive 0: the texture of its material 'wall' needs set 3 of "
+                    "texture coordinates, but the mesh has 1");
+    o = read_changed(file, "\"WEIGHTS_0\":4}", "\"WEIGHTS_0\":4,\"COLOR_0\":3}");
+    expect_note(&o, "COLOR_0 of mesh 0 'tube', primitive 0: mended: its integers are taken as");
+    CHECK_NEAR(o.least_colour, 1 / 255.0f, 1e-9f);
 }
 
 static void test_mended(glb *file) {
@@ -404,6 +432,13 @@ static void test_truncated(const glb *file) {
     unsigned char *const bytes = glb_make(json, file->bytes, file->size, &size);
     for (size_t end = 0; end < size; end += end < 64 ? 1 : 97)
         CHECK_EQUAL(read_bytes(bytes, end).status, LIMN_BAKE_BAD_INPUT);
+    char words[96];
+    snprintf(words, sizeof words, "its header says %zu bytes, but it has %zu bytes", size,
+             size - 1);
+    CHECK_CONTAINS(read_bytes(bytes, size - 1).error, words);
+    bytes[15]++; // of the length of the JSON
+    CHECK_CONTAINS(read_bytes(bytes, size).error, "bytes from byte 20 on reaches beyond its ");
+    bytes[15]--;
     CHECK_EQUAL(read_bytes(bytes, size).status, LIMN_BAKE_OK);
     free(bytes);
 }
@@ -424,6 +459,7 @@ int main(void) {
     test_refusals(&file);
     test_numbers(&file);
     test_mended(&file);
+    test_odd(&file);
     test_many();
     test_deep();
     test_truncated(&file);
