@@ -2,7 +2,8 @@
 /*
  * Texture coordinates beside OpenSubdiv's, all rows of every face at level 4, in every mode of
  * face-varying interpolation, dense and isolated: within 1e-6 of their extent. The shapes of its
- * suite made for that, a textured character, and a grid with random charts and tags.
+ * suite made for that, a textured character, a grid with random charts and tags, and a book, which
+ * is no manifold at its spine.
  *
  * Not compared: two values that alternate around a vertex, of which OpenSubdiv counts the second
  * twice; and Chaikin's creasing at seams, where it also averages the edges of the other side.
@@ -11,6 +12,7 @@
 #include "../check.h"
 #include "../mesh_files.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static const double tolerance = 1e-6;
@@ -47,7 +49,8 @@ static void check_modes(const char *path, limn_scheme scheme) {
         const limn_bake_desc desc = {.scheme = scheme,
                                      .face_varying = (limn_face_varying)mode,
                                      .isolate = mode % 2 ? LIMN_ISOLATE_NEVER : LIMN_ISOLATE_ALWAYS,
-                                     .normals = mode % 3 ? LIMN_NORMALS_NONE : LIMN_NORMALS_EXACT};
+                                     .normals = mode % 3 ? LIMN_NORMALS_NONE : LIMN_NORMALS_EXACT,
+                                     .non_manifold = LIMN_NON_MANIFOLD_SPLIT};
         limn_baker *const baker = limn_baker_create(&desc);
         limn_pack pack;
         if (CHECK(bake(baker, path, &pack))) compare(path, &pack, &desc);
@@ -118,9 +121,53 @@ static void test_random(void) {
     }
 }
 
+// ---- Pages that share a spine
+
+/// Of four rows, two columns from the spine; corners take values of their own page where it is on
+/// a chart of its own.
+static void write_book(const char *path, uint32_t page_count) {
+    enum { ROWS = 4, COLUMNS = 2 };
+    FILE *const file = fopen(path, "w");
+    if (!file) abort();
+    const uint32_t spine = 1 + ROWS, page_size = spine * COLUMNS;
+    const uint32_t count = spine + page_count * page_size;
+    for (uint32_t v = 0; v < count; v++) {
+        const double turn = v < spine ? 0 : 2 * (v - spine) / page_size;
+        const double far = v < spine ? 0 : 1 + (v - spine) % page_size / spine;
+        fprintf(file, "v %.9g %.9g %u\n", far * cos(turn), far * sin(turn),
+                v < spine ? v : (v - spine) % spine);
+    }
+    for (uint32_t t = 0; t < count * (1 + page_count); t++)
+        fprintf(file, "vt %.9g %.9g\n", t % count * 0.7 + 0.1 * next_random(8),
+                t % count % spine + 0.1 * next_random(8));
+    for (uint32_t page = 0; page < page_count; page++) {
+        const uint32_t chart = next_random(2) ? 1 + page : 0;
+        for (uint32_t f = 0; f < ROWS * COLUMNS; f++) {
+            const uint32_t row = f % ROWS, column = f / ROWS, first = spine + page * page_size;
+            const uint32_t near = column == 0 ? row : first + (column - 1) * spine + row;
+            const uint32_t corners[] = {near, first + column * spine + row,
+                                        first + column * spine + row + 1, near + 1};
+            fprintf(file, "f");
+            for (uint32_t c = 0; c < 4; c++)
+                fprintf(file, " %u/%u", 1 + corners[c], 1 + chart * count + corners[c]);
+            fprintf(file, "\n");
+        }
+    }
+    fclose(file);
+}
+
+static void test_books(void) {
+    for (uint32_t page_count = 3; page_count <= 6; page_count++) {
+        write_book("book.obj", page_count);
+        check_modes("book.obj", LIMN_SCHEME_CATMARK);
+        check_modes("book.obj", LIMN_SCHEME_LOOP);
+    }
+}
+
 int main(void) {
     mesh_files_visit(visit);
     test_random();
+    test_books();
     printf("largest difference %.2e\n", largest_of_all);
     return check_report();
 }
