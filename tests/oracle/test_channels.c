@@ -123,14 +123,14 @@ static void test_random(void) {
 
 // ---- Pages that share a spine
 
-/// Of four rows, two columns from the spine; corners take values of their own page where it is on
-/// a chart of its own.
+/// Of four rows, two columns from the spine. Some pages are on a chart of their own, all of which
+/// are sewn together at some of the vertices of the spine.
 static void write_book(const char *path, uint32_t page_count) {
     enum { ROWS = 4, COLUMNS = 2 };
     FILE *const file = fopen(path, "w");
     if (!file) abort();
     const uint32_t spine = 1 + ROWS, page_size = spine * COLUMNS;
-    const uint32_t count = spine + page_count * page_size;
+    const uint32_t count = spine + page_count * page_size, sewn = next_random(1u << spine);
     for (uint32_t v = 0; v < count; v++) {
         const double turn = v < spine ? 0 : 2 * (v - spine) / page_size;
         const double far = v < spine ? 0 : 1 + (v - spine) % page_size / spine;
@@ -148,8 +148,11 @@ static void write_book(const char *path, uint32_t page_count) {
             const uint32_t corners[] = {near, first + column * spine + row,
                                         first + column * spine + row + 1, near + 1};
             fprintf(file, "f");
-            for (uint32_t c = 0; c < 4; c++)
-                fprintf(file, " %u/%u", 1 + corners[c], 1 + chart * count + corners[c]);
+            for (uint32_t c = 0; c < 4; c++) {
+                const bool common = corners[c] < spine && sewn >> corners[c] & 1;
+                fprintf(file, " %u/%u", 1 + corners[c],
+                        1 + (common ? 0 : chart) * count + corners[c]);
+            }
             fprintf(file, "\n");
         }
     }
