@@ -157,21 +157,24 @@ static void check_mesh(subject *s, uint32_t vertex_count) {
 
 // ---- Levels
 
-static limn_view view_from(float distance) {
-    return limn_view_perspective((float[]){0.3f * distance, 0.2f * distance, distance},
-                                 (float[]){0, 0, 0}, (float[]){0, 1, 0}, 1.0f, 1280, 720, 0.01f,
-                                 1e6f);
+/// Orthographic, with sizes as they are at that distance.
+static limn_view view_from(float distance, bool orthographic) {
+    const float eye[] = {0.3f * distance, 0.2f * distance, distance};
+    const float target[] = {0, 0, 0}, up[] = {0, 1, 0};
+    return orthographic ? limn_view_orthographic(eye, target, up, distance, 1280, 720, 0.01f, 1e6f)
+                        : limn_view_perspective(eye, target, up, 1.0f, 1280, 720, 0.01f, 1e6f);
 }
 
 /// Walking away, the base mesh suffices from some distance on, which is at most `slack` times that
 /// from which on the plan has no other level.
-static void check_levels(const subject *s, const limn_lod_desc *desc, float slack) {
+static void check_levels(const subject *s, const limn_lod_desc *desc, bool orthographic,
+                         float slack) {
     const float bounds[] = {s->mesh.bounds_min[0], s->mesh.bounds_min[1], s->mesh.bounds_min[2],
                             s->mesh.bounds_max[0], s->mesh.bounds_max[1], s->mesh.bounds_max[2]};
     void *const memory = allocate(1, limn_plan_size(&s->mesh));
     float plan_distance = 0, base_distance = 0;
     for (float distance = 1; distance < 1e5f; distance *= 1.05f) {
-        const limn_view view = view_from(distance);
+        const limn_view view = view_from(distance, orthographic);
         const limn_plan plan =
             limn_plan_build(&s->mesh, s->mesh.controls, &view, 1, desc, NULL, memory);
         const bool enough = limn_base_suffices(&s->base, bounds, &view, 1, desc);
@@ -187,13 +190,15 @@ static void check_levels(const subject *s, const limn_lod_desc *desc, float slac
 static void check_when(const char *path) {
     subject s = {.baker = limn_baker_create(NULL)};
     if (CHECK_EQUAL(limn_baker_add_file(s.baker, path), LIMN_BAKE_OK) && open_baked(&s)) {
-        check_levels(&s, &(limn_lod_desc){.lod = LIMN_LOD_ERROR}, 1.5f);
-        check_levels(&s, &(limn_lod_desc){.lod = LIMN_LOD_LENGTH}, 1.5f);
+        check_levels(&s, &(limn_lod_desc){.lod = LIMN_LOD_ERROR}, false, 1.5f);
+        check_levels(&s, &(limn_lod_desc){.lod = LIMN_LOD_ERROR}, true, 1.01f);
+        check_levels(&s, &(limn_lod_desc){.lod = LIMN_LOD_LENGTH}, false, 1.5f);
+        check_levels(&s, &(limn_lod_desc){.lod = LIMN_LOD_LENGTH}, true, 1.01f);
         check_levels(&s, &(limn_lod_desc){.lod = LIMN_LOD_LENGTH, .bias = 1.5f, .pixels = 20},
-                     1.5f);
-        check_levels(&s, &(limn_lod_desc){.lod = LIMN_LOD_ERROR, .bias = -1},
+                     false, 1.5f);
+        check_levels(&s, &(limn_lod_desc){.lod = LIMN_LOD_ERROR, .bias = -1}, false,
                      6); // errors do not ask the bias
-        const limn_view view = view_from(1e5f);
+        const limn_view view = view_from(1e5f, false);
         const float bounds[6] = {0};
         const limn_lod_desc never[] = {{.min_level = 1},
                                        {.lod = LIMN_LOD_ERROR, .bias = 1},

@@ -121,6 +121,10 @@ notes 'split: 0 edges, sharp now, and 1 vertices, of which 1 are corners now; 1 
 notes 'split: 1 edges' bake winding.obj -o winding.limn --non-manifold split
 refuses 1 'degenerate.obj:6: degenerate' bake degenerate.obj -o new.limn --non-manifold split
 refuses 1 'edge.obj: non-manifold edge' bake edge.obj -o new.limn --non-manifold refuse
+refuses 1 'edge.obj: not a manifold, and sheets of the butterfly would not meet' bake edge.obj -o new.limn --non-manifold split \
+    --scheme butterfly -q
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
+refuses 1 'one.obj: all faces are holes' bake one.obj -o new.limn --boundary none
 refuses 2 "cannot 'weld' what is not a manifold" bake edge.obj -o new.limn --non-manifold weld
 works bake -q "$torus" -o clean.limn --non-manifold split
 cmp -s clean.limn torus.limn || fail "splitting a manifold makes a difference"
