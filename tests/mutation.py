@@ -187,6 +187,7 @@ def main():
     parser.add_argument("--skip", type=int, default=0, help="leave out the first of them")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--work", default=os.path.join(SOURCE, "build/mutation"))
+    parser.add_argument("--only", help="those at these places: file:line,file:line")
     parser.add_argument("--list", action="store_true", help="say which, and do nothing")
     options = parser.parse_args()
 
@@ -196,6 +197,8 @@ def main():
     for group in options.groups.split(","):
         tests = GROUPS[group]["tests"]
         total, chosen = choose(tree.source if tree else SOURCE, group, options.skip, options.count, options.seed)
+        if options.only:
+            chosen = [mutant for mutant in chosen if f"{mutant[0]}:{mutant[1] + 1}" in options.only.split(",")]
         print(f"{group}: {len(chosen)} of {total} mutants", flush=True)
         if tree:
             built = tree.make(tests)
