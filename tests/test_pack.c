@@ -628,6 +628,35 @@ static void test_checksum(void) {
 #endif
 }
 
+/// A class that is good itself, but of the other domain.
+static void test_run_of_other_domain(void) {
+    const blob file = bake_tetrahedron();
+    const blob longer = grow_tables(&file, 1 << 14);
+    CHECK_EQUAL(open_result(longer.bytes, longer.size), LIMN_OK);
+    classes_of(&longer)->domain = LIMN_DOMAIN_QUAD;
+    classes_of(&longer)->pair_count = 0;
+    fix_checksum(&longer);
+    CHECK_EQUAL(open_result(longer.bytes, longer.size), LIMN_ERROR_RUN);
+    free(longer.bytes);
+    free(file.bytes);
+}
+
+/// A run without patches that follows the others without a gap.
+static void test_empty_run(void) {
+    const blob file = bake_tetrahedron();
+    limn_file_chunk *const chunk = find_chunk(&file, 0, LIMN_CHUNK_RUNS);
+    limn_file_run *const run = runs_of(&file, 0);
+    const uint64_t index_count = record_of(&file, 0)->index_count;
+    CHECK_EQUAL(chunk->size, sizeof *run); // and there is room for another before the next chunk
+    chunk->size += sizeof *run;
+    record_of(&file, 0)->run_count++;
+    run[1] = (limn_file_run){
+        .first_patch = run->patch_count, .first_index = index_count, .first_slot = index_count};
+    fix_checksum(&file);
+    CHECK_EQUAL(open_result(file.bytes, file.size), LIMN_ERROR_RUN);
+    free(file.bytes);
+}
+
 /// What must be refused of the data for normals.
 static void test_damaged_normals(void) {
     const blob file = bake_with(&with_normals, (const mesh_case *[]){&tetrahedron}, 1);
@@ -754,6 +783,8 @@ int main(void) {
     bake_and_mend(&with_normals, (const mesh_case *[]){&strip, &twin}, 2);
     bake_and_mend(&butterfly, (const mesh_case *[]){&strip}, 1);
     bake_and_mend(&catmark, (const mesh_case *[]){&box}, 1);
+    test_run_of_other_domain();
+    test_empty_run();
     test_damaged_normals();
     test_damaged_creases();
     test_damages();
