@@ -428,13 +428,14 @@ static void test_file_errors(void) {
     mkdir("test_readers.obj", 0700);
     check_file_error("test_readers.obj", LIMN_BAKE_IO, "test_readers.obj: is a folder, not a file");
     write_text("test_readers.obj/a.b.stl", "solid\n");
-    check_file_error(
-        "test_readers.obj/a.b.stl", LIMN_BAKE_BAD_INPUT,
-        "test_readers.obj/a.b.stl: unknown kind of file; .obj, .off, .ply, .gltf and .glb are read");
+    check_file_error("test_readers.obj/a.b.stl", LIMN_BAKE_BAD_INPUT,
+                     "test_readers.obj/a.b.stl: unknown kind of file; .obj, .off, .ply, .gltf, "
+                     ".glb, .fbx and .dae are read");
     remove("test_readers.obj/a.b.stl");
     write_text("test_readers.obj/obj", "");
     check_file_error("test_readers.obj/obj", LIMN_BAKE_BAD_INPUT,
-                     "test_readers.obj/obj: unknown kind of file; .obj, .off, .ply, .gltf and .glb are read");
+                     "test_readers.obj/obj: unknown kind of file; .obj, .off, .ply, .gltf, .glb, "
+                     ".fbx and .dae are read");
     remove("test_readers.obj/obj");
     write_text("test_readers.obj/empty.off", "");
     check_file_error("test_readers.obj/empty.off", LIMN_BAKE_BAD_INPUT,

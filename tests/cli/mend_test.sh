@@ -123,6 +123,9 @@ refuses 1 'degenerate.obj:6: degenerate' bake degenerate.obj -o new.limn --non-m
 refuses 1 'edge.obj: non-manifold edge' bake edge.obj -o new.limn --non-manifold refuse
 refuses 1 'edge.obj: not a manifold, and sheets of the butterfly would not meet' bake edge.obj -o new.limn --non-manifold split \
     --scheme butterfly -q
+truncate -s 4294967295 huge.obj # of which nothing is on the disk
+refuses 1 'huge.obj: the file has 4 GiB or more' bake huge.obj -o new.limn
+rm huge.obj
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
 refuses 1 'one.obj: all faces are holes' bake one.obj -o new.limn --boundary none
 refuses 2 "cannot 'weld' what is not a manifold" bake edge.obj -o new.limn --non-manifold weld
