@@ -342,10 +342,8 @@ static limn_result validate_stencils(const limn_pack *pack, const limn_mesh *mes
     return LIMN_OK;
 }
 
-static bool is_normal_inside(const limn_file_normal *normal, uint64_t ring_size,
-                             uint64_t weight_count) {
-    return (uint64_t)normal->first_ring + normal->ring_count <= ring_size &&
-           normal->first_weight + 2 * (uint64_t)normal->ring_count <= weight_count;
+static bool are_weights_inside(const limn_file_normal *normal, uint64_t weight_count) {
+    return normal->first_weight + 2 * (uint64_t)normal->ring_count <= weight_count;
 }
 
 static limn_result validate_creases(const limn_pack *pack, const limn_mesh *mesh, uint32_t m) {
@@ -358,9 +356,36 @@ static limn_result validate_creases(const limn_pack *pack, const limn_mesh *mesh
     return LIMN_OK;
 }
 
+/// The rings of base vertices follow one another and use up the chunk: normals take linear time.
+static limn_result validate_rings(const limn_mesh *mesh, uint64_t ring_size,
+                                  uint64_t weight_count) {
+    uint64_t ring = 0;
+    for (uint32_t c = 0; c < mesh->base_count; c++) {
+        if (mesh->normals[c].first_ring != ring ||
+            !are_weights_inside(&mesh->normals[c], weight_count))
+            return LIMN_ERROR_NORMALS;
+        ring += mesh->normals[c].ring_count;
+    }
+    if (ring != ring_size) return LIMN_ERROR_NORMALS;
+    for (uint64_t r = 0; r < ring_size; r++) {
+        if (mesh->ring[r] >= mesh->base_first + mesh->base_count) return LIMN_ERROR_NORMALS;
+    }
+    return LIMN_OK;
+}
+
+/// A side has the ring of its base vertex, which is no longer than patches have points.
+static bool is_side_right(const limn_mesh *mesh, const limn_file_side *side,
+                          uint64_t weight_count) {
+    const uint32_t base = side->point - mesh->base_first;
+    return base < mesh->base_count && side->normal.first_ring == mesh->normals[base].first_ring &&
+           side->normal.ring_count == mesh->normals[base].ring_count &&
+           side->normal.ring_count <= 2 * LIMN_FORMAT_CONTROLS_MAX &&
+           are_weights_inside(&side->normal, weight_count);
+}
+
 /// A mesh has sides and which corners take them, or neither.
 static limn_result validate_sides(const limn_pack *pack, const limn_mesh *mesh, uint32_t m,
-                                  uint64_t ring_size, uint64_t weight_count) {
+                                  uint64_t weight_count) {
     const uint32_t corner_count = mesh->domain->corner_count;
     if (!mesh->sides != !mesh->corner_normals) return LIMN_ERROR_CHUNK;
     if (!mesh->sides) return LIMN_OK;
@@ -370,9 +395,7 @@ static limn_result validate_sides(const limn_pack *pack, const limn_mesh *mesh, 
                         corner_count * sizeof(uint32_t)))
         return LIMN_ERROR_MESH;
     for (uint32_t s = 0; s < mesh->normal_count - mesh->base_count; s++) {
-        if (mesh->sides[s].point - mesh->base_first >= mesh->base_count ||
-            !is_normal_inside(&mesh->sides[s].normal, ring_size, weight_count))
-            return LIMN_ERROR_NORMALS;
+        if (!is_side_right(mesh, &mesh->sides[s], weight_count)) return LIMN_ERROR_NORMALS;
     }
     for (uint64_t c = 0; c < (uint64_t)mesh->patch_count * corner_count; c++) {
         if (mesh->corner_normals[c] >= mesh->normal_count) return LIMN_ERROR_NORMALS;
@@ -393,14 +416,8 @@ static limn_result validate_normals(const limn_pack *pack, const limn_mesh *mesh
     for (uint32_t r = 0; r < mesh->run_count; r++) {
         if (mesh->classes[mesh->runs[r].class_index].table_count != 3) return LIMN_ERROR_NORMALS;
     }
-    for (uint32_t c = 0; c < mesh->base_count; c++) {
-        if (!is_normal_inside(&mesh->normals[c], ring_size, weight_count))
-            return LIMN_ERROR_NORMALS;
-    }
-    TRY(validate_sides(pack, mesh, m, ring_size, weight_count));
-    for (uint64_t r = 0; r < ring_size; r++) {
-        if (mesh->ring[r] >= mesh->base_first + mesh->base_count) return LIMN_ERROR_NORMALS;
-    }
+    TRY(validate_rings(mesh, ring_size, weight_count));
+    TRY(validate_sides(pack, mesh, m, weight_count));
     return all_finite(mesh->weights, (size_t)weight_count) ? LIMN_OK : LIMN_ERROR_NORMALS;
 }
 

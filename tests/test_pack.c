@@ -672,6 +672,8 @@ static void test_damaged_normals(void) {
     } cases[] = {
         {records->offset + offsetof(limn_file_normal, first_ring), 10, LIMN_ERROR_NORMALS},
         {records->offset + offsetof(limn_file_normal, ring_count), 0xffffffff, LIMN_ERROR_NORMALS},
+        // One ring for two base vertices; for all of them, normals would take quadratic time.
+        {records->offset + sizeof(limn_file_normal), 0, LIMN_ERROR_NORMALS},
         {records->offset + offsetof(limn_file_normal, first_weight), 1, LIMN_ERROR_NORMALS},
         {ring->offset, 4, LIMN_ERROR_NORMALS},
         {weights->offset, 0x7fc00000, LIMN_ERROR_NORMALS},
@@ -751,7 +753,9 @@ static void test_damaged_creases(void) {
     } cases[] = {
         {creases->offset, 8, LIMN_ERROR_MESH},
         {sides->offset, 4, LIMN_ERROR_NORMALS},
-        {normal + offsetof(limn_file_normal, first_ring), 10, LIMN_ERROR_NORMALS},
+        {normal + offsetof(limn_file_normal, first_ring), 3,
+         LIMN_ERROR_NORMALS}, // of another vertex
+        {normal + offsetof(limn_file_normal, ring_count), 2, LIMN_ERROR_NORMALS},
         {normal + offsetof(limn_file_normal, first_weight), 0xffffff00, LIMN_ERROR_NORMALS},
         {corners->offset, 6, LIMN_ERROR_NORMALS},
     };

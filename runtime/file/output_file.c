@@ -42,29 +42,28 @@ static FILE *open_stream(limni_output_file *file) {
     return stream;
 }
 
-/// Where a link leads that leads nowhere yet: one step, relative to the folder of the link.
-static char *follow_link(const char *path) {
+/// Whether a path that leads nowhere yet is a link; then `target` is one step further, relative to
+/// the folder of the link, or NULL where there is no memory for it.
+static bool follow_link(const char *path, char **target) {
     char link[4096];
     const ssize_t length = readlink(path, link, sizeof link);
-    if (length <= 0 || (size_t)length == sizeof link) return NULL;
+    if (length <= 0 || (size_t)length == sizeof link) return false;
     const char *const slash = strrchr(path, '/');
     const size_t folder = slash && link[0] != '/' ? (size_t)(slash + 1 - path) : 0;
-    char *const target = malloc(folder + (size_t)length + 1);
-    if (!target) return NULL;
-    memcpy(target, path, folder);
-    memcpy(target + folder, link, (size_t)length);
-    target[folder + (size_t)length] = '\0';
-    return target;
+    *target = malloc(folder + (size_t)length + 1);
+    if (!*target) return true;
+    memcpy(*target, path, folder);
+    memcpy(*target + folder, link, (size_t)length);
+    (*target)[folder + (size_t)length] = '\0';
+    return true;
 }
 
 /// What is to be written: the file that links lead to, which need not be there yet.
 static char *resolve(const char *path) {
-    char *target = realpath(path, NULL);
+    char *target = realpath(path, NULL), *next;
     if (target) return target;
     target = strdup(path);
-    for (int links = 0; target && links < 40; links++) {
-        char *const next = follow_link(target);
-        if (!next) break;
+    for (int links = 0; target && links < 40 && follow_link(target, &next); links++) {
         free(target);
         target = next;
     }

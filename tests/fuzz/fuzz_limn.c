@@ -33,9 +33,25 @@ static void *allocate(size_t size) {
     return memory;
 }
 
+static const limn_light lights[] = {
+    {.kind = LIMN_LIGHT_DIRECTIONAL, .colour = {1, 1, 1}, .direction = {0, -1, 0}},
+    {.kind = LIMN_LIGHT_SPOT,
+     .colour = {1, 2, 3},
+     .position = {0, 1, 2},
+     .direction = {0, 0, -1},
+     .attenuation = {0, 0, 1},
+     .range = 5,
+     .inner_cosine = 0.9f,
+     .outer_cosine = 0.5f}};
+
 static void evaluate(const limn_mesh *mesh, const float *points, const limn_plan *plan) {
     if (plan->vertex_count > VERTICES_MAX) return;
     const size_t vertex_size = 3 * sizeof(float);
+    const limn_lighting lighting = {.mode = plan->level % 2 ? LIMN_LIGHT_EXACT
+                                                            : LIMN_LIGHT_INTERPOLATED,
+                                    .lights = lights,
+                                    .light_count = 2};
+    uint32_t *const colours = allocate((size_t)plan->vertex_count * sizeof *colours);
     float *const vertices = allocate((size_t)plan->vertex_count * vertex_size);
     float *const normals = allocate((size_t)plan->vertex_count * vertex_size);
     float *const control_normals = allocate(mesh->normal_count * vertex_size);
@@ -44,10 +60,13 @@ static void evaluate(const limn_mesh *mesh, const float *points, const limn_plan
         limn_mesh_control_normals(mesh, points, control_normals);
         output.normals = normals;
         output.control_normals = control_normals;
+        output.colours = colours;
+        output.lighting = &lighting;
     }
     limn_evaluate(plan, points, 0, plan->patch_count, &output);
     free(vertices);
     free(normals);
+    free(colours);
     free(control_normals);
 }
 
@@ -72,10 +91,10 @@ static void draw(const limn_mesh *mesh) {
     float *const points = allocate(mesh->point_count * point_size);
     if (mesh->point_count) memcpy(points, mesh->controls, mesh->control_count * point_size);
     limn_mesh_refine(mesh, points);
-    const limn_plan coarsest = limn_plan_uniform(mesh, 0);
-    const limn_plan finest = limn_plan_uniform(mesh, LIMN_LEVEL_MAX);
-    evaluate(mesh, points, &coarsest);
-    evaluate(mesh, points, &finest);
+    for (uint32_t level = 0; level <= LIMN_LEVEL_MAX; level++) {
+        const limn_plan plan = limn_plan_uniform(mesh, level);
+        evaluate(mesh, points, &plan);
+    }
     evaluate_frame(mesh, points, LIMN_LOD_LENGTH);
     evaluate_frame(mesh, points, LIMN_LOD_ERROR);
     free(points);
