@@ -217,8 +217,8 @@ expect_mistake("use C_ARRAY" "limn_bake(TARGET app SOURCES square.off OUTPUT oth
 
 # ---- Limn as a part of the project
 
-# What follows builds Limn again: without optimisation, which is quicker.
-list(APPEND common -DCMAKE_BUILD_TYPE=Debug)
+# What follows builds Limn again: without optimisation and symbols, which is quicker.
+list(APPEND common -DCMAKE_BUILD_TYPE=None)
 run("configure with Limn's source" "${CMAKE_COMMAND}" ${common} -B "${build}-source" -G "${CMAKE_GENERATOR}"
     "-DLIMN_SOURCE_DIR=${SOURCE_DIR}")
 check_builds("${build}-source")
@@ -226,7 +226,7 @@ check_builds("${build}-source")
 # ---- A package without the baker
 
 run("configure without the baker" "${CMAKE_COMMAND}" -S "${SOURCE_DIR}" -B "${build}-runtime" -G "${CMAKE_GENERATOR}"
-    -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_C_COMPILER=${CMAKE_C_COMPILER}" "-DCMAKE_C_FLAGS=${CMAKE_C_FLAGS}"
+    -DCMAKE_BUILD_TYPE=None "-DCMAKE_C_COMPILER=${CMAKE_C_COMPILER}" "-DCMAKE_C_FLAGS=${CMAKE_C_FLAGS}"
     -DLIMN_BUILD_BAKER=OFF -DLIMN_BUILD_VIEWER=OFF -DLIMN_BUILD_BENCH=OFF -DLIMN_BUILD_EXAMPLES=OFF
     -DLIMN_BUILD_TESTS=OFF)
 run("build without the baker" "${CMAKE_COMMAND}" --build "${build}-runtime")

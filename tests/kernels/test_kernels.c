@@ -1097,7 +1097,7 @@ static void test_selection(void) {
     }
 }
 
-static void test_kernels(made *m, const limn_kernels *kernels, point_kind kind, bool golden) {
+static void test_kernels(made *m, const limn_kernels *kernels, point_kind kind) {
     if (kind == NOT_FINITE) { // the bits of a NaN are the CPU's
         test_not_finite(m, kernels);
         return;
@@ -1109,7 +1109,6 @@ static void test_kernels(made *m, const limn_kernels *kernels, point_kind kind, 
         test_golden_plan(m, kernels);
         test_golden_light(m, kernels);
     }
-    if (golden) return;
     test_precision(m, kernels, kind == RANDOM);
     test_ranges(m, kernels);
     test_split(m, kernels);
@@ -1130,11 +1129,11 @@ static bool is_of_arithmetic(point_kind kind) {
 }
 
 /// Classes with tables, or in pieces.
-static void test_made(limn_domain_kind domain, bool in_pieces, bool golden, bool fast) {
+static void test_made(limn_domain_kind domain, bool in_pieces, bool fast) {
     static made m;
     state = 12345; // so that golden values do not depend on what was tested before
     make(&m, domain, in_pieces);
-    for (int kind = 0; kind < (golden ? 1 : KINDS); kind++) {
+    for (int kind = 0; kind < KINDS; kind++) {
         if (domain != LIMN_DOMAIN_TRIANGLE && is_of_arithmetic((point_kind)kind)) continue;
         for (uint32_t c = 0; c < CONTROLS; c++) {
             for (int axis = 0; axis < 3; axis++)
@@ -1148,7 +1147,7 @@ static void test_made(limn_domain_kind domain, bool in_pieces, bool golden, bool
             const limn_kernels *const kernels =
                 limn_kernels_select(isa, fast ? LIMN_FAMILY_FAST : LIMN_FAMILY_REPRODUCIBLE);
             if (fast && kernels->family != LIMN_FAMILY_FAST) continue; // there are none
-            test_kernels(&m, kernels, (point_kind)kind, golden);
+            test_kernels(&m, kernels, (point_kind)kind);
         }
     }
     free(m.columns);
@@ -1165,17 +1164,14 @@ static bool has_argument(int argc, char **argv, const char *word) {
 }
 
 /// The reproducible kernels on triangles, or with the argument `quads` on those, so that both can
-/// run at a time; with `fast`, the fast kernels. With `golden`, only the golden hashes, of both.
+/// run at a time; with `fast`, the fast kernels.
 int main(int argc, char **argv) {
-    const bool golden = has_argument(argc, argv, "golden");
     const bool fast = has_argument(argc, argv, "fast");
-    const int own = has_argument(argc, argv, "quads") ? LIMN_DOMAIN_QUAD : LIMN_DOMAIN_TRIANGLE;
+    const limn_domain_kind own =
+        has_argument(argc, argv, "quads") ? LIMN_DOMAIN_QUAD : LIMN_DOMAIN_TRIANGLE;
     test_selection();
-    for (int domain = 0; domain < LIMN_DOMAIN_COUNT; domain++) {
-        if (!golden && domain != own) continue;
-        test_made((limn_domain_kind)domain, false, golden, fast);
-        test_made((limn_domain_kind)domain, true, golden, fast);
-    }
+    test_made(own, false, fast);
+    test_made(own, true, fast);
     test_refining(fast);
     return check_report();
 }
