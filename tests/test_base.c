@@ -187,6 +187,54 @@ static void check_levels(const subject *s, const limn_lod_desc *desc, bool ortho
     free(memory);
 }
 
+/// The distance is that from the box, on each side of it.
+static void check_sides(const subject *s) {
+    const float bounds[] = {-1, -2, -4, 2, 5, 9}, far_enough = s->base.length * 100 / 8;
+    for (int side = 0; side < 6; side++) {
+        for (int more = 0; more < 2; more++) {
+            limn_view view = {.eye = {0, 0, 0}, .pixels = 100, .nearest = 0.01f};
+            const float away = far_enough * (more ? 1.01f : 0.99f);
+            view.eye[side % 3] = bounds[side] + (side < 3 ? -away : away);
+            CHECK_EQUAL(limn_base_suffices(&s->base, bounds, &view, 1, NULL), more);
+        }
+    }
+}
+
+static bool is_among_first(void *count, uint32_t patch) {
+    return patch < *(const uint32_t *)count;
+}
+
+/// Patches are looked at by blocks of 64: what is left out behind does not change those before.
+static void check_kept(const subject *s) {
+    void *const memory = allocate(2, limn_plan_size(&s->mesh));
+    void *const fewer = (unsigned char *)memory + (limn_plan_size(&s->mesh) + 7) / 8 * 8;
+    const limn_view view = {.eye = {0, 1, 2}, .pixels = 400, .nearest = 0.01f};
+    const limn_plan all = limn_plan_build(&s->mesh, s->mesh.controls, &view, 1, NULL, NULL, memory);
+    for (uint32_t count = 1; count <= 130; count++) {
+        const limn_lod_desc desc = {.keep_fn = is_among_first, .keep_user = &count};
+        const limn_plan plan =
+            limn_plan_build(&s->mesh, s->mesh.controls, &view, 1, &desc, NULL, fewer);
+        if (CHECK_EQUAL(plan.patch_count, count))
+            CHECK(memcmp(plan.patches, all.patches, count * sizeof *plan.patches) == 0);
+    }
+    free(memory);
+}
+
+/// Nothing is left of what is behind the eye, of surfaces that leave the hull of their points, too.
+static void check_behind(const char *path, limn_scheme scheme) {
+    subject s = {.baker = limn_baker_create(&(limn_bake_desc){.scheme = scheme})};
+    if (CHECK_EQUAL(limn_baker_add_file(s.baker, path), LIMN_BAKE_OK) && open_baked(&s)) {
+        void *const memory = allocate(1, limn_plan_size(&s.mesh));
+        const limn_view view = limn_view_perspective((float[]){0, 0, 50}, (float[]){0, 0, 100},
+                                                     (float[]){0, 1, 0}, 1.0f, 1280, 720, 1, 1000);
+        const limn_plan plan =
+            limn_plan_build(&s.mesh, s.mesh.controls, &view, 1, NULL, NULL, memory);
+        CHECK_EQUAL(plan.patch_count, 0);
+        free(memory);
+    }
+    close_baked(&s);
+}
+
 static void check_when(const char *path) {
     subject s = {.baker = limn_baker_create(NULL)};
     if (CHECK_EQUAL(limn_baker_add_file(s.baker, path), LIMN_BAKE_OK) && open_baked(&s)) {
@@ -198,6 +246,8 @@ static void check_when(const char *path) {
                      false, 1.5f);
         check_levels(&s, &(limn_lod_desc){.lod = LIMN_LOD_ERROR, .bias = -1}, false,
                      6); // errors do not ask the bias
+        check_sides(&s);
+        check_kept(&s);
         const limn_view view = view_from(1e5f, false);
         const float bounds[6] = {0};
         const limn_lod_desc never[] = {{.min_level = 1},
@@ -309,5 +359,7 @@ int main(void) {
     check_creases();
     snprintf(path, sizeof path, "%s/imp.obj", getenv("LIMN_ASSETS"));
     check_when(path);
+    check_behind(path, LIMN_SCHEME_LOOP);
+    check_behind(path, LIMN_SCHEME_BUTTERFLY);
     return check_report();
 }

@@ -459,6 +459,10 @@ static void channel_kind(const blob *file) {
 static void channel_without_components(const blob *file) {
     channel_of(file)->component_count = 0;
 }
+/// Not damage.
+static void channel_with_one_component(const blob *file) {
+    channel_of(file)->component_count = 1;
+}
 static void channel_with_many_components(const blob *file) {
     channel_of(file)->component_count = 4;
 }
@@ -493,6 +497,7 @@ static const damage damages[] = {
     DAMAGE(channel_of_channel, LIMN_ERROR_CHANNEL),
     DAMAGE(channel_kind, LIMN_ERROR_CHANNEL),
     DAMAGE(channel_without_components, LIMN_ERROR_CHANNEL),
+    DAMAGE(channel_with_one_component, LIMN_OK),
     DAMAGE(channel_with_many_components, LIMN_ERROR_CHANNEL),
     DAMAGE(channel_with_fewer_patches, LIMN_ERROR_CHANNEL),
     DAMAGE(channel_with_holes, LIMN_ERROR_CHANNEL),

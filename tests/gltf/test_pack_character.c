@@ -165,6 +165,14 @@ static void material_name(const blob *file) {
 static void image_name(const blob *file) {
     images_of(file)[0].name = name_end(file);
 }
+/// Where there are no strings, there is no name, not even at 0.
+static void names_nowhere(const blob *file) {
+    for (uint32_t j = 0; j < 7; j++)
+        joints_of(file)[j].name = 0;
+    clips_of(file)[0].name = clips_of(file)[1].name = materials_of(file)[0].name =
+        materials_of(file)[1].name = images_of(file)[0].name = 0;
+    remove_chunk(file, LIMN_FORMAT_NO_MESH, LIMN_CHUNK_STRINGS);
+}
 /// Not damage: the last of the strings is as good a name as any.
 static void last_names(const blob *file) {
     joints_of(file)[2].name = clips_of(file)[1].name = materials_of(file)[1].name =
@@ -324,6 +332,7 @@ static const damage damages[] = {
     DAMAGE(clip_name, LIMN_ERROR_CLIP),
     DAMAGE(material_name, LIMN_ERROR_MATERIAL),
     DAMAGE(image_name, LIMN_ERROR_MATERIAL),
+    DAMAGE(names_nowhere, LIMN_ERROR_SKELETON),
     DAMAGE(last_names, LIMN_OK),
     DAMAGE(joint_before_parent, LIMN_ERROR_SKELETON),
     DAMAGE(joint_out_of_order, LIMN_ERROR_SKELETON),
