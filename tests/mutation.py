@@ -7,7 +7,8 @@
 Mutants are chosen from all places where an operator, a constant, a condition or a statement can be changed, by a fixed
 seed, `count` from each group of files; a larger count begins with the same mutants. Each is compiled, and the fast tests
 of its group run until one fails, crashes or takes too long: then it is killed. Survivors are printed. Those that
-mutation_equivalent.txt lists with a reason do not count. Exit status 1 if fewer than 95 % of the others are killed.
+mutation_equivalent.txt lists with a reason do not count. Exit status 1 if fewer than 95 % of the others are killed. After
+a change of the files other mutants are chosen; --only tries some again.
 
 Not a part of the CI: 120 mutants take about half an hour on two cores, the first build included.
 """

@@ -220,16 +220,21 @@ static void check_kept(const subject *s) {
     free(memory);
 }
 
-/// Nothing is left of what is behind the eye, of surfaces that leave the hull of their points, too.
-static void check_behind(const char *path, limn_scheme scheme) {
+/// Nothing is left of what is behind the eye or beside the view, of surfaces that leave the hull of
+/// their points, too.
+static void check_unseen(const char *path, limn_scheme scheme) {
+    static const float targets[][3] = {{0, 0, 100}, {100, 0, 0}, {-100, 0, 0}, {0, 100, 0.5f}};
+    const float eye[] = {0, 0, 50}, up[] = {0, 1, 0};
     subject s = {.baker = limn_baker_create(&(limn_bake_desc){.scheme = scheme})};
     if (CHECK_EQUAL(limn_baker_add_file(s.baker, path), LIMN_BAKE_OK) && open_baked(&s)) {
         void *const memory = allocate(1, limn_plan_size(&s.mesh));
-        const limn_view view = limn_view_perspective((float[]){0, 0, 50}, (float[]){0, 0, 100},
-                                                     (float[]){0, 1, 0}, 1.0f, 1280, 720, 1, 1000);
-        const limn_plan plan =
-            limn_plan_build(&s.mesh, s.mesh.controls, &view, 1, NULL, NULL, memory);
-        CHECK_EQUAL(plan.patch_count, 0);
+        for (size_t v = 0; v < COUNT(targets); v++) {
+            const limn_view view =
+                limn_view_perspective(eye, targets[v], up, 1.0f, 1280, 720, 1, 1000);
+            const limn_plan plan =
+                limn_plan_build(&s.mesh, s.mesh.controls, &view, 1, NULL, NULL, memory);
+            CHECK_EQUAL(plan.patch_count, 0);
+        }
         free(memory);
     }
     close_baked(&s);
@@ -359,7 +364,7 @@ int main(void) {
     check_creases();
     snprintf(path, sizeof path, "%s/imp.obj", getenv("LIMN_ASSETS"));
     check_when(path);
-    check_behind(path, LIMN_SCHEME_LOOP);
-    check_behind(path, LIMN_SCHEME_BUTTERFLY);
+    check_unseen(path, LIMN_SCHEME_LOOP);
+    check_unseen(path, LIMN_SCHEME_BUTTERFLY);
     return check_report();
 }
