@@ -6,7 +6,7 @@
 #
 # hostile       40 min   every length, byte and word of the corpora damaged, under sanitizers
 # faults        15 min   every allocation of the baker's test fails, under sanitizers; 300 killed processes
-# determinism    5 min   the table of hashes from clang -O3; every mesh baked by gcc and by clang
+# determinism    6 min   the table of hashes from gcc -O2 and clang -O0 and -O3; every mesh baked by gcc and by clang
 #
 # LIMN_TEST_ASSETS may name a folder of further meshes. Works in build/asan, build/release and build/nightly.
 set -eu
@@ -54,6 +54,8 @@ determinism() {
     say "Hashes"
     script=tests/determinism/determinism_test.sh
     sh $script tested "$folder" "$work" build/release/baker/limn build/release/tests/hashes
+    sh $script gcc -O2 "$folder" "$work"
+    sh $script clang -O0 "$folder" "$work"
     sh $script clang -O3 "$folder" "$work" bake
     say "Every mesh, by gcc and by clang"
     sh tests/determinism/all_meshes.sh build/release/baker/limn "$work/clang-O3/baker/limn" "$folder" "$work/meshes"

@@ -61,7 +61,7 @@ build() {
         done
         shift
         cmake -S "$source_folder" -B "$folder" -G Ninja "$@" -DCMAKE_BUILD_TYPE=None \
-            -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" -DLIMN_BUILD_BAKER="$baker" \
+            -DCMAKE_C_FLAGS_NONE="$flags" -DCMAKE_CXX_FLAGS_NONE="$flags" -DLIMN_BUILD_BAKER="$baker" \
             -DCMAKE_DISABLE_FIND_PACKAGE_OpenSubdivCPU=ON -DLIMN_BUILD_BENCH=OFF -DLIMN_BUILD_EXAMPLES=OFF \
             -DLIMN_BUILD_VIEWER=OFF -DLIMN_INSTALL=OFF &&
             # shellcheck disable=SC2086 # one word per target
