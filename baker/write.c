@@ -322,16 +322,29 @@ static void describe(const limni_rules *rules, const limni_patches *meshes, uint
              boundary_name(meshes, mesh_count), creases, normals, isolate);
 }
 
+/// Chunks that there may be, at most.
+static size_t count_room(const limni_patches *meshes, uint32_t mesh_count) {
+    const size_t per_mesh =
+        CHUNKS_OF_MESH + CHUNKS_OF_NORMALS + CHUNKS_OF_CREASES + CHUNKS_OF_POINTS + CHUNKS_OF_RIG;
+    const size_t per_channel = CHUNKS_OF_CHANNEL + CHUNKS_OF_POINTS;
+    return CHUNKS_OF_FILE + CHUNKS_OF_CHARACTER + per_mesh * mesh_count +
+           per_channel * count_channels(meshes, mesh_count);
+}
+
+static limn_bake_status check_blob(limni_context *context, const unsigned char *blob, size_t size) {
+    limn_pack pack;
+    const limn_result result = limn_pack_open(&pack, blob, size);
+    if (result == LIMN_OK) return LIMN_BAKE_OK;
+    return limni_fail(context, LIMN_BAKE_INTERNAL, "defect in the baker: it made a bad file: %s",
+                      limn_result_text(result));
+}
+
 limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rules,
                                   const limni_classes *classes, const limni_classes *pieces,
                                   limni_patches *meshes, uint32_t mesh_count,
                                   const limni_character *character, unsigned char **blob,
                                   size_t *blob_size) {
-    const uint32_t channel_count = count_channels(meshes, mesh_count);
-    const size_t per_mesh =
-        CHUNKS_OF_MESH + CHUNKS_OF_NORMALS + CHUNKS_OF_CREASES + CHUNKS_OF_POINTS + CHUNKS_OF_RIG;
-    const size_t room = CHUNKS_OF_FILE + CHUNKS_OF_CHARACTER + per_mesh * mesh_count +
-                        (CHUNKS_OF_CHANNEL + CHUNKS_OF_POINTS) * (size_t)channel_count;
+    const size_t room = count_room(meshes, mesh_count);
     part *const parts = limni_allocate(context, room, sizeof *parts);
     limn_file_chunk *const directory = limni_allocate(context, room, sizeof *directory);
     shared all = {.classes = classes, .pieces = pieces};
@@ -352,18 +365,14 @@ limn_bake_status limni_write_blob(limni_context *context, const limni_rules *rul
         .chunk_count = part_count,
         .mesh_count = mesh_count,
         .class_count = classes->count,
-        .channel_count = channel_count,
+        .channel_count = count_channels(meshes, mesh_count),
     };
     memcpy(header.magic, LIMN_FORMAT_MAGIC, sizeof header.magic);
     *blob = limni_allocate_zeroed(context, (size_t)header.size, 1);
     if (!*blob) return LIMN_BAKE_MEMORY;
     *blob_size = (size_t)header.size;
     fill_blob(&all, parts, part_count, directory, &header, *blob);
-    limn_pack pack;
-    const limn_result result = limn_pack_open(&pack, *blob, *blob_size);
-    if (result != LIMN_OK)
-        return limni_fail(context, LIMN_BAKE_INTERNAL,
-                          "defect in the baker: it made a bad file: %s", limn_result_text(result));
+    LIMNI_TRY(check_blob(context, *blob, *blob_size));
     limni_release(context, parts);
     limni_release(context, directory);
     limni_records_release(context, &all.records);
