@@ -295,7 +295,7 @@ static void test_pieces(void) {
     CHECK(domain->corner_count * pieces->positions[LIMNI_PIECE_CORNER].row_stride +
               pieces->positions[LIMNI_PIECE_MIDDLE].row_stride <=
           LIMNI_PIECE_PLACES);
-    const int last_kind = limni_piece_kind_of(domain, LIMN_FORMAT_PIECE_COUNT - 1);
+    const int last_kind = (int)limni_piece_kind_of(domain, LIMN_FORMAT_PIECE_COUNT - 1);
     for (int kind = LIMNI_PIECE_CORNER; kind <= last_kind; kind++) {
         check_piece_layout(&pieces->positions[kind], (limni_piece_kind)kind);
         check_piece_layout(&pieces->tangents[kind], (limni_piece_kind)kind);
