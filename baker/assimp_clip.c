@@ -46,34 +46,40 @@ static limn_bake_status add_channel(const reading *r, int node, uint8_t path, co
     return LIMN_BAKE_OK;
 }
 
+static limn_bake_status refuse_key(const reading *r, const limni_model_channel *channel,
+                                   uint32_t key) {
+    return limni_fail(r->reader->context, LIMN_BAKE_BAD_INPUT, "%s: %s: key %u is not finite",
+                      r->reader->model->path, channel->label, key);
+}
+
 static limn_bake_status add_key(const reading *r, limni_model_channel *channel, double ticks,
                                 const float *values) {
     float *const to = channel->values + (size_t)channel->width * channel->key_count;
     bool finite = isfinite(channel->times[channel->key_count] = (float)(ticks * r->seconds)) != 0;
     for (uint32_t i = 0; i < channel->width; i++)
         finite &= isfinite(to[i] = values[i]) != 0;
-    if (!finite)
-        return limni_fail(r->reader->context, LIMN_BAKE_BAD_INPUT, "%s: %s: key %u is not finite",
-                          r->reader->model->path, channel->label, channel->key_count);
+    if (!finite) return refuse_key(r, channel, channel->key_count);
     channel->key_count++;
     return LIMN_BAKE_OK;
 }
 
 /// Keeps, of several keys at one time, the last; and before the start, the last at the start.
 static void finish_channel(const reading *r, limni_model_channel *channel) {
-    uint32_t kept = 0, before = 0;
+    uint32_t kept = 0, before = 0, repeated = 0;
     for (uint32_t k = 0; k < channel->key_count; k++) {
         const float time = fmaxf(channel->times[k], 0);
-        before += channel->times[k] < 0 && channel->times[k] < -1e-4f;
-        kept -= kept && channel->times[kept - 1] == time;
+        const bool early = channel->times[k] < -1e-4f;
+        const bool replaces = kept && channel->times[kept - 1] == time;
+        before += early;
+        repeated += replaces && !early;
+        kept -= replaces;
         channel->times[kept] = time;
         memmove(channel->values + (size_t)channel->width * kept,
                 channel->values + (size_t)channel->width * k, channel->width * sizeof(float));
         kept++;
     }
     note(r, channel, before, "keys lie before the start; the last of them is kept, at the start");
-    note(r, channel, channel->key_count - kept - before,
-         "keys have the time of another; the last of these is kept");
+    note(r, channel, repeated, "keys have the time of another; the last of these is kept");
     channel->key_count = kept;
 }
 
@@ -193,6 +199,7 @@ static limn_bake_status read_morph(const reading *r, const struct aiMeshMorphAni
                           &channel));
     for (unsigned k = 0; k < from->mNumKeys; k++) {
         channel->times[k] = (float)(from->mKeys[k].mTime * r->seconds);
+        if (!isfinite(channel->times[k])) return refuse_key(r, channel, k);
         LIMNI_TRY(take_weights(r, &from->mKeys[k], channel, channel->values + (size_t)width * k));
     }
     channel->key_count = from->mNumKeys;

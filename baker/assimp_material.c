@@ -74,13 +74,15 @@ static limn_bake_status list_others(const limni_assimp_reader *reader,
         "normal", "shininess", "opacity",   "displacement", "lightmap",  "reflection",
         NULL,     "normal",    "emissive",  "metalness",    "roughness", "occlusion",
         NULL,     "sheen",     "clearcoat", "transmission"};
-    char *const list = limni_allocate_zeroed(reader->context, 256, 1);
+    enum { LIST_SIZE = 256 }; // more words than that are cut off
+    char *const list = limni_allocate_zeroed(reader->context, LIST_SIZE, 1);
     if (!list) return LIMN_BAKE_MEMORY;
     for (size_t type = 0, length = 0; type < sizeof names / sizeof *names; type++) {
         if (!names[type] || aiGetMaterialTextureCount(from, (enum aiTextureType)type) == 0)
             continue;
-        length += (size_t)snprintf(list + length, 256 - length, "%s%s texture", length ? ", " : "",
-                                   names[type]);
+        if (length < LIST_SIZE)
+            length += (size_t)snprintf(list + length, LIST_SIZE - length, "%s%s texture",
+                                       length ? ", " : "", names[type]);
     }
     *words = list;
     return LIMN_BAKE_OK;

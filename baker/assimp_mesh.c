@@ -240,7 +240,11 @@ static limn_bake_status read_mesh(const limni_assimp_reader *reader, const struc
                        reader->model->path, part->label);
         } else {
             LIMNI_TRY(read_part(&r, first_joint));
-            if (mesh->part_count++ == 0) {
+            if (part->face_count == 0) {
+                limni_note(reader->context, "%s: %s: it has no faces; it is passed over",
+                           reader->model->path, part->label);
+                *part = (limni_model_part){0};
+            } else if (mesh->part_count++ == 0) {
                 mesh->name = limni_assimp_text(reader->context, &from->mName);
                 if (!mesh->name) return LIMN_BAKE_MEMORY;
                 LIMNI_TRY(describe_targets(reader, from, part, mesh));

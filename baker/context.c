@@ -82,12 +82,20 @@ void limni_release_all(limni_context *context) {
         limni_release(context, context->blocks + 1);
 }
 
+/// Words may be a file's own: none shall move the cursor of a terminal.
+static void make_printable(char *text) {
+    for (; *text; text++) {
+        if ((unsigned char)*text < ' ' || *text == 0x7f) *text = ' ';
+    }
+}
+
 limn_bake_status limni_fail(limni_context *context, limn_bake_status status, const char *format,
                             ...) {
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(context->error, sizeof context->error, format, arguments);
     va_end(arguments);
+    make_printable(context->error);
     return status;
 }
 
@@ -98,6 +106,7 @@ void limni_note(limni_context *context, const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    make_printable(text);
     context->desc.note(context->desc.user, text);
 }
 

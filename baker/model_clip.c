@@ -75,9 +75,12 @@ static limn_bake_status check_times(const recording *r, uint32_t index) {
     if (channel->key_count == 0 || channel->key_count >= 1u << 24)
         return refuse(r, index, "it has no keys, or too many");
     for (uint32_t k = 0; k < channel->key_count; k++) {
-        if (channel->times[k] >= 0 && !(k && channel->times[k] <= channel->times[k - 1])) continue;
+        if (channel->times[k] >= 0 && isfinite(channel->times[k]) &&
+            !(k && channel->times[k] <= channel->times[k - 1]))
+            continue;
         char text[96];
-        snprintf(text, sizeof text, "time %u is negative, or not after the one before", k);
+        snprintf(text, sizeof text, "time %u is negative, not finite, or not after the one before",
+                 k);
         return refuse(r, index, text);
     }
     return LIMN_BAKE_OK;

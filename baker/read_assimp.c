@@ -8,6 +8,8 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -147,36 +149,76 @@ static rlim_t seconds_for(size_t size) {
     return 2 + (rlim_t)(size >> 20);
 }
 
-/// Whether assimp comes back from a file. It aborts on some that are broken, and never ends with
-/// others, so that it is tried in another process first.
-static bool survives(const char *bytes, size_t size, bool is_fbx) {
-    int status = 0;
-    const pid_t child = fork();
-    if (child < 0) return true; // no process is to be had: take the risk
-    if (child == 0) {
-        const int nowhere = open("/dev/null", O_WRONLY);
-        if (nowhere >= 0) dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO);
-        const struct rlimit limit = {seconds_for(size), seconds_for(size)};
-        setrlimit(RLIMIT_CPU, &limit);
-        setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
-        import(bytes, size, is_fbx);
-        _exit(0);
-    }
-    while (waitpid(child, &status, 0) < 0) {
-        if (errno != EINTR) return true;
-    }
-    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+/// The signals that end a process, whatever the program does with them.
+static void reset_signals(void) {
+    static const int signals[] = {SIGABRT, SIGALRM, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGXCPU};
+    sigset_t none;
+    for (size_t s = 0; s < sizeof signals / sizeof *signals; s++)
+        signal(signals[s], SIG_DFL);
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, NULL);
 }
 
-/// The words may be the file's own.
+/// The other process: says a word if assimp came back.
+static void try_import(const char *bytes, size_t size, bool is_fbx, int verdict) {
+    const rlim_t seconds = seconds_for(size);
+    const int nowhere = open("/dev/null", O_WRONLY);
+    if (nowhere >= 0) dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO);
+    reset_signals();
+    setrlimit(RLIMIT_CPU, &(struct rlimit){seconds, seconds});
+    setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
+    alarm((unsigned)(30 * seconds)); // where it waits for what no thread of this process gives back
+    import(bytes, size, is_fbx);
+    _exit(write(verdict, "", 1) == 1 ? 0 : 1);
+}
+
+/// Whether assimp comes back from a file. It aborts on some that are broken, and never ends with
+/// others, so that it is tried in another process first. The word through the pipe counts, as a host
+/// may collect its children by itself.
+///
+/// survived  out
+static limn_bake_status try_apart(const limni_assimp_reader *reader, const char *bytes, size_t size,
+                                  bool *survived) {
+    int ends[2];
+    const bool piped = pipe(ends) == 0;
+    const pid_t child = piped ? fork() : -1;
+    if (child == 0) try_import(bytes, size, reader->is_fbx, ends[1]);
+    const int error = errno;
+    if (piped) close(ends[1]);
+    if (child < 0) {
+        if (piped) close(ends[0]);
+        return limni_fail(reader->context, LIMN_BAKE_IO, "%s: no process to try assimp in: %s",
+                          reader->model->path, strerror(error));
+    }
+    char word;
+    ssize_t length;
+    do {
+        length = read(ends[0], &word, 1);
+    } while (length < 0 && errno == EINTR);
+    close(ends[0]);
+    while (waitpid(child, NULL, 0) < 0 && errno == EINTR) {
+    }
+    *survived = length == 1;
+    return LIMN_BAKE_OK;
+}
+
 static limn_bake_status refuse(const limni_assimp_reader *reader, const char *words) {
-    char line[256];
-    size_t length = 0;
-    for (; words[length] && length < sizeof line - 1; length++)
-        line[length] = (char)((unsigned char)words[length] < ' ' ? ' ' : words[length]);
-    line[length] = '\0';
-    return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT, "%s: not good %s: %s",
-                      reader->model->path, reader->is_fbx ? "FBX" : "Collada", line);
+    return limni_fail(reader->context, LIMN_BAKE_BAD_INPUT, "%s: not good %s: %.255s",
+                      reader->model->path, reader->is_fbx ? "FBX" : "Collada", words);
+}
+
+/// Assimp keeps its last error for the whole process.
+static limn_bake_status import_scene(limni_assimp_reader *reader, const char *bytes, size_t size) {
+    static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
+    limn_bake_status status = LIMN_BAKE_OK;
+    pthread_mutex_lock(&one_at_a_time);
+    reader->scene = import(bytes, size, reader->is_fbx);
+    if (!reader->scene) {
+        const char *const words = aiGetErrorString();
+        status = refuse(reader, words && words[0] ? words : "assimp says no more");
+    }
+    pthread_mutex_unlock(&one_at_a_time);
+    return status;
 }
 
 limn_bake_status limni_read_assimp(limni_context *context, const char *path, const char *name,
@@ -185,12 +227,10 @@ limn_bake_status limni_read_assimp(limni_context *context, const char *path, con
     limni_assimp_reader reader = {
         .context = context, .model = &model, .is_fbx = limni_has_extension(path, ".fbx")};
     if (size == 0) return refuse(&reader, "it is empty");
-    if (!survives(bytes, size, reader.is_fbx)) return refuse(&reader, "assimp breaks down over it");
-    reader.scene = import(bytes, size, reader.is_fbx);
-    if (!reader.scene) {
-        const char *const words = aiGetErrorString();
-        return refuse(&reader, words && words[0] ? words : "assimp says no more");
-    }
+    bool survived = false;
+    LIMNI_TRY(try_apart(&reader, bytes, size, &survived));
+    if (!survived) return refuse(&reader, "assimp breaks down over it");
+    LIMNI_TRY(import_scene(&reader, bytes, size));
     const limn_bake_status status = read_document(&reader, bytes, size);
     aiReleaseImport(reader.scene);
     return status == LIMN_BAKE_OK ? limni_read_model(context, &model, name, scene) : status;

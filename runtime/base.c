@@ -68,7 +68,7 @@ static uint32_t write_terms(const limni_run *run, uint32_t corner, limn_file_ter
 
 // ---- Size
 
-enum { WINDOW = 1 << 15 }; ///< base vertices that are looked at together
+enum { WINDOW = 1 << 17 }; ///< base vertices that are looked at together
 
 /// The terms of base vertices [first, first + WINDOW), each at the first of its corners.
 static uint64_t count_window(const limn_mesh *mesh, uint32_t first) {
@@ -118,9 +118,18 @@ static base_layout lay_out(const limn_mesh *mesh) {
     return l;
 }
 
+/// Whether indices, or all that is laid out, could not be counted. A corner has four numbers and a
+/// vertex, a base vertex has a number and its terms.
+static bool is_too_large(const limn_mesh *mesh) {
+    const uint64_t indices = (uint64_t)mesh->patch_count * mesh->domain->index_counts[0];
+    const uint64_t terms = count_all_terms(mesh);
+    return indices > UINT32_MAX || terms > UINT32_MAX ||
+           (indices + mesh->base_count) * 40 + terms * sizeof(limn_file_term) > SIZE_MAX;
+}
+
 size_t limn_base_size(const limn_mesh *mesh) {
     LIMNI_REQUIRE(mesh && mesh->domain, 0);
-    return lay_out(mesh).size;
+    return mesh->patch_count == 0 || is_too_large(mesh) ? 0 : lay_out(mesh).size;
 }
 
 // ---- Vertices
@@ -159,11 +168,16 @@ static void divide(numbering *n, const limn_mesh *mesh, const uint32_t *values) 
     n->id_count = count;
 }
 
+/// By base vertices first, so that few numbers ever come from one.
 static void number_corners(const limn_pack *pack, const limn_mesh *mesh, numbering *n) {
-    memset(n->ids, 0, n->corner_count * sizeof *n->ids);
-    n->id_count = 1;
+    const uint32_t corner_count = mesh->domain->corner_count;
+    uint32_t corners[LIMN_CORNER_MAX];
+    for (uint32_t at = 0; at < n->corner_count; at++) {
+        if (at % corner_count == 0) limn_mesh_corners(mesh, at / corner_count, corners);
+        n->ids[at] = corners[at % corner_count] - mesh->base_first;
+    }
+    n->id_count = mesh->base_count;
     divide(n, mesh, mesh->corner_normals);
-    if (mesh->corner_normals) divide(n, mesh, NULL);
     for (uint32_t c = 0; c < mesh->channel_count; c++) {
         const limn_channel channel = limn_mesh_channel(pack, mesh, c);
         divide(n, &channel.mesh, NULL);
@@ -247,7 +261,9 @@ static void measure(limn_base *base) {
 }
 
 limn_base limn_base_build(const limn_pack *pack, const limn_mesh *mesh, void *memory) {
-    LIMNI_REQUIRE(pack && mesh && mesh->domain && memory, (limn_base){0});
+    LIMNI_REQUIRE(pack && mesh && mesh->domain, (limn_base){0});
+    if (mesh->patch_count == 0 || is_too_large(mesh)) return (limn_base){.mesh = mesh};
+    LIMNI_REQUIRE(memory, (limn_base){0});
     const base_layout layout = lay_out(mesh);
     unsigned char *const bytes = memory;
     limn_file_term *const terms = memory;
@@ -275,29 +291,40 @@ limn_base limn_base_build(const limn_pack *pack, const limn_mesh *mesh, void *me
 
 // ---- Levels
 
-/// The distance from the eye to the box, by which perspective divides.
-static float divisor_of(const limn_view *view, const float *box) {
-    float square = 0;
+static float square(float a) {
+    return a * a;
+}
+
+/// The square of the largest length on the screen of what is `size` long in the box: longer than any
+/// edge there seems to limni_lod_measure().
+static float find_seen(const limn_view *view, const float *box, float size) {
+    float distance2 = 0;
     for (int axis = 0; axis < 3; axis++) {
         const float eye = view->eye[axis];
-        const float away = fmaxf(fmaxf(box[axis] - eye, eye - box[3 + axis]), 0);
-        square += away * away;
+        distance2 += square(fmaxf(fmaxf(box[axis] - eye, eye - box[3 + axis]), 0));
     }
-    return view->orthographic ? 1 : fmaxf(sqrtf(square), view->nearest);
+    const float divisor = view->orthographic ? 1 : fmaxf(distance2, square(view->nearest));
+    return square(size * 1.000001f) * square(view->pixels) / divisor; // for what roundings take
+}
+
+/// As limni_lod_measure() has it.
+static float find_level(const limn_lod_desc *desc, float seen) {
+    if (desc->lod == LIMN_LOD_ERROR) return seen <= square(desc->pixels) ? 0 : 1;
+    return 0.5f * limni_log2(seen / square(desc->pixels)) + desc->bias;
 }
 
 bool limn_base_suffices(const limn_base *base, const float *box, const limn_view *views,
                         uint32_t view_count, const limn_lod_desc *desc) {
     LIMNI_REQUIRE(base && base->mesh && box && views, false);
+    LIMNI_REQUIRE(view_count >= 1 && view_count <= LIMN_VIEW_MAX, false);
     const limn_lod_desc d = limni_lod_complete(desc);
     LIMNI_REQUIRE(limni_lod_is_valid(&d, base->mesh), false);
     const bool by_error = d.lod == LIMN_LOD_ERROR;
     if (d.min_level > 0 || (by_error && d.bias > 0)) return false;
     if (d.lod == LIMN_LOD_UNIFORM) return d.level + d.bias <= 0;
-    const float size = by_error ? base->error : base->length;
-    const float allowed = by_error ? d.pixels : d.pixels * exp2f(-d.bias);
     for (uint32_t v = 0; v < view_count; v++) {
-        if (!(size * views[v].pixels <= allowed * divisor_of(&views[v], box))) return false;
+        const float seen = find_seen(&views[v], box, by_error ? base->error : base->length);
+        if (!(find_level(&d, seen) <= 0)) return false;
     }
     return true;
 }

@@ -6,6 +6,8 @@
 #include "evaluate_body.h"
 
 enum { BASE_BLOCK = 256 };
+LIMN_STATIC_ASSERT(BASE_BLOCK + LANES_WIDTH <= LIMNI_PADDED_ROWS_MAX,
+                   "a block is no more than the rows of a patch");
 
 /// The same sum as that of the corner of a patch, whose table has zeros besides.
 static inline void sum_base_vertex(const limn_base *base, const limn_base_vertex *vertex,
@@ -28,8 +30,8 @@ static void evaluate_base(const limn_base *base, const limni_points *from, uint3
     parts to;
     scratch rows;
     arrange_parts(target, &to);
-    for (uint32_t first = begin; first < end; first += BASE_BLOCK) {
-        const size_t count = end - first < BASE_BLOCK ? end - first : BASE_BLOCK;
+    for (uint32_t first = begin, count; first < end; first += count) {
+        count = end - first < BASE_BLOCK ? end - first : BASE_BLOCK;
         const limn_base_vertex *const vertices = base->vertices + first;
         for (size_t i = 0; i < count; i++)
             sum_base_vertex(base, &vertices[i], from->controls, origin, i, &rows.positions);

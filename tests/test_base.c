@@ -249,6 +249,8 @@ static void check_when(const char *path) {
         check_levels(&s, &(limn_lod_desc){.lod = LIMN_LOD_LENGTH}, true, 1.01f);
         check_levels(&s, &(limn_lod_desc){.lod = LIMN_LOD_LENGTH, .bias = 1.5f, .pixels = 20},
                      false, 1.5f);
+        for (float bias = -0.97f; bias < 1; bias += 0.09f) // its logarithm is not exact
+            check_levels(&s, &(limn_lod_desc){.lod = LIMN_LOD_LENGTH, .bias = bias}, true, 1.06f);
         check_levels(&s, &(limn_lod_desc){.lod = LIMN_LOD_ERROR, .bias = -1}, false,
                      6); // errors do not ask the bias
         check_sides(&s);
@@ -267,6 +269,14 @@ static void check_when(const char *path) {
 }
 
 // ---- Meshes
+
+/// A file may have a mesh without patches.
+static void check_empty(void) {
+    const limn_mesh mesh = {.domain = limn_domain_get(LIMN_DOMAIN_TRIANGLE)};
+    const limn_pack pack = {0};
+    CHECK_EQUAL(limn_base_size(&mesh), 0);
+    CHECK_EQUAL(limn_base_build(&pack, &mesh, NULL).vertex_count, 0);
+}
 
 static void check_file(const char *name, const limn_bake_desc *desc) {
     char path[4096];
@@ -360,6 +370,7 @@ int main(void) {
         check_file("sail.obj", &desc);
     }
     check_case(&twin, NULL, NULL, 4);
+    check_empty();
     check_seams();
     check_creases();
     snprintf(path, sizeof path, "%s/imp.obj", getenv("LIMN_ASSETS"));

@@ -216,6 +216,8 @@ static bool check(const frame_options *o) {
     if ((o->threads > 1 || o->draws) && strcmp(o->clock, "wall") != 0)
         wrong = "--clock thread is of one thread";
     if (o->frame >= o->length.frames) wrong = "--frame: there are not so many --frames";
+    if (o->png && (o->json || o->csv || o->html || o->draws || o->finds_crowd))
+        wrong = "a --png is made instead of measuring";
     if ((o->frame > 0 || o->width > 0) && !o->png) wrong = "--frame and --size are of a --png";
 #ifndef BENCH_WITH_DRAWING
     if (o->draws || o->png) wrong = "--draw and --png: built without limn-view";

@@ -198,7 +198,8 @@ void limn_baker_destroy(limn_baker *baker);
 
 /// Adds the mesh in an .obj, .off or .ply file, named after the file; or of a .gltf, .glb, .fbx or
 /// .dae file all meshes of its scene, named after their nodes, with skeleton, clips and materials.
-/// After an error the baker can only be destroyed.
+/// FBX and Collada are first tried in a process that is forked for it, as assimp may abort over a
+/// file. After an error the baker can only be destroyed.
 limn_bake_status limn_baker_add_file(limn_baker *baker, const char *path);
 
 /// Adds a mesh from memory, copying it. Errors name faces and vertices by index from 0. Tags of

@@ -777,24 +777,26 @@ typedef struct limn_base {
     uint32_t index_count;    ///< patch_count * domain->index_counts[0]
     const uint32_t *indices; ///< [index_count] counter-clockwise triangles, patch by patch, so that
                              ///< the patches of a material are consecutive
-    const limn_base_vertex *vertices;   ///< [vertex_count]
-    const struct limn_file_term *terms; ///< of the stencils, see format.h
-    float length;                       ///< of the longest edge of the bind pose, model units
-    float error;                        ///< of level 0 in the bind pose, the largest of any edge
-    size_t size;                        ///< bytes of memory that are still needed
+    const limn_base_vertex *vertices; ///< [vertex_count]
+    /// Of the stencils, in ascending order of their points: a vertex is mesh->origin + the sum of
+    /// weight (point - mesh->origin).
+    const struct limn_file_term *terms;
+    float length; ///< of the longest edge of the bind pose, model units
+    float error;  ///< of level 0 in the bind pose, the largest of any edge
+    size_t size;  ///< bytes of memory, from its start, that are still needed
 } limn_base;
 
-/// Bytes of memory that limn_base_build() needs, of which about a third stays in use. Takes as long
-/// as building.
+/// Bytes of memory that limn_base_build() needs, of which about the first third stays in use. 0: the
+/// mesh has no patches, or more than UINT32_MAX indices or terms. Takes a tenth of building.
 size_t limn_base_size(const limn_mesh *mesh);
 
-/// Makes the base mesh of a mesh: once, in some 100 nanoseconds a patch. Corners are one vertex where
-/// they have the same base vertex, the same normal and the same values in all channels. As those do
-/// not move, a channel is evaluated once, for limn_plan_uniform(mesh, 0), of which
+/// Makes the base mesh of a mesh: once, in less than a microsecond a patch. Corners are one vertex
+/// where they have the same base vertex, the same normal and the same values in all channels. As
+/// those do not move, a channel is evaluated once, for limn_plan_uniform(mesh, 0), of which
 /// limn_base_vertex.corner are the vertices to take. Does not allocate, never fails; any thread.
 ///
 /// pack    that of the mesh, for its channels
-/// mesh    must outlive the base mesh; its patches have at most UINT32_MAX corners
+/// mesh    must outlive the base mesh. Where limn_base_size() is 0, that has no vertices
 /// memory  [limn_base_size()] bytes, aligned to 8
 limn_base limn_base_build(const limn_pack *pack, const limn_mesh *mesh, void *memory);
 

@@ -79,7 +79,7 @@ left_alone "a link to nowhere"
 head -c 9000 "$assets/imp.obj" >part.obj
 cp "$assets/imp.obj" whole.obj
 (
-    while [ ! -e stop ]; do
+    while [ ! -e stop ] && kill -0 $$ 2>/dev/null; do
         for name in part whole; do
             ln -f $name.obj changing.obj
             rm -f changing.obj

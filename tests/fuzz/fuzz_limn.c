@@ -128,6 +128,19 @@ static void visit(const limn_mesh *mesh) {
         draw(mesh);
 }
 
+static void use_base(const limn_pack *pack, const limn_mesh *mesh) {
+    if (mesh->base_count > VERTICES_MAX || mesh->patch_count > VERTICES_MAX) return;
+    void *const memory = allocate(limn_base_size(mesh));
+    const limn_base base = limn_base_build(pack, mesh, memory);
+    float *const positions = allocate(base.vertex_count * sizeof(float[3]));
+    const limn_output output = {.vertices = positions};
+    for (uint32_t i = 0; i < base.index_count; i++)
+        FUZZ_REQUIRE(base.indices[i] < base.vertex_count);
+    limn_base_evaluate(&base, mesh->controls, 0, base.vertex_count, &output);
+    free(positions);
+    free(memory);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
     void *memory = NULL; // exactly as large, for the address sanitizer
     FUZZ_REQUIRE(posix_memalign(&memory, LIMN_FORMAT_ALIGNMENT, size + (size == 0)) == 0);
@@ -138,6 +151,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
         for (uint32_t m = 0; m < pack.mesh_count; m++) {
             const limn_mesh mesh = limn_pack_mesh(&pack, m);
             visit(&mesh);
+            use_base(&pack, &mesh);
             evaluate_channels(&pack, &mesh);
         }
         use_character(&pack);
