@@ -99,37 +99,32 @@ static uint64_t count_all_terms(const limn_mesh *mesh) {
 }
 
 /// Where things lie in the caller's memory, in bytes: what stays, and then what only building needs.
+/// A size of 0: there is nothing to build, or more than can be counted.
 typedef struct base_layout {
-    size_t terms, indices, vertices, ids, heads, links, values, size;
+    uint64_t terms, indices, vertices, ids, heads, links, values, size;
 } base_layout;
 
 static base_layout lay_out(const limn_mesh *mesh) {
-    const size_t corners = (size_t)mesh->patch_count * mesh->domain->corner_count;
-    const size_t heads = corners > mesh->base_count ? corners : mesh->base_count;
+    const uint64_t term_count = count_all_terms(mesh);
+    const uint64_t index_count = (uint64_t)mesh->patch_count * mesh->domain->index_counts[0];
+    const uint64_t corners = (uint64_t)mesh->patch_count * mesh->domain->corner_count;
+    const uint64_t heads = corners > mesh->base_count ? corners : mesh->base_count;
     base_layout l = {.terms = 0};
-    l.indices = (size_t)count_all_terms(mesh) * sizeof(limn_file_term);
-    l.vertices =
-        l.indices + (size_t)mesh->patch_count * mesh->domain->index_counts[0] * sizeof(uint32_t);
+    l.indices = term_count * sizeof(limn_file_term);
+    l.vertices = l.indices + index_count * sizeof(uint32_t);
     l.ids = l.vertices + corners * sizeof(limn_base_vertex);
     l.heads = l.ids + corners * sizeof(uint32_t);
     l.links = l.heads + heads * sizeof(uint32_t);
     l.values = l.links + corners * sizeof(uint32_t);
     l.size = l.values + corners * sizeof(uint32_t);
+    const bool countable = term_count <= UINT32_MAX && index_count <= UINT32_MAX;
+    if (mesh->patch_count == 0 || !countable || l.size != (size_t)l.size) l.size = 0;
     return l;
-}
-
-/// Whether indices, or all that is laid out, could not be counted. A corner has four numbers and a
-/// vertex, a base vertex has a number and its terms.
-static bool is_too_large(const limn_mesh *mesh) {
-    const uint64_t indices = (uint64_t)mesh->patch_count * mesh->domain->index_counts[0];
-    const uint64_t terms = count_all_terms(mesh);
-    return indices > UINT32_MAX || terms > UINT32_MAX ||
-           (indices + mesh->base_count) * 40 + terms * sizeof(limn_file_term) > SIZE_MAX;
 }
 
 size_t limn_base_size(const limn_mesh *mesh) {
     LIMNI_REQUIRE(mesh && mesh->domain, 0);
-    return mesh->patch_count == 0 || is_too_large(mesh) ? 0 : lay_out(mesh).size;
+    return (size_t)lay_out(mesh).size;
 }
 
 // ---- Vertices
@@ -262,9 +257,9 @@ static void measure(limn_base *base) {
 
 limn_base limn_base_build(const limn_pack *pack, const limn_mesh *mesh, void *memory) {
     LIMNI_REQUIRE(pack && mesh && mesh->domain, (limn_base){0});
-    if (mesh->patch_count == 0 || is_too_large(mesh)) return (limn_base){.mesh = mesh};
-    LIMNI_REQUIRE(memory, (limn_base){0});
     const base_layout layout = lay_out(mesh);
+    if (layout.size == 0) return (limn_base){.mesh = mesh};
+    LIMNI_REQUIRE(memory, (limn_base){0});
     unsigned char *const bytes = memory;
     limn_file_term *const terms = memory;
     uint32_t *const indices = (uint32_t *)(void *)(bytes + layout.indices);
@@ -284,7 +279,7 @@ limn_base limn_base_build(const limn_pack *pack, const limn_mesh *mesh, void *me
                       .indices = indices,
                       .vertices = vertices,
                       .terms = terms,
-                      .size = layout.vertices + n.id_count * sizeof *vertices};
+                      .size = (size_t)layout.vertices + n.id_count * sizeof *vertices};
     measure(&base);
     return base;
 }

@@ -22,7 +22,7 @@
     X(SEAMS, J, "j", "seams on and off: off, patches do not fit coarser ones")                     \
     X(CULL, K, "k", "culling on and off")                                                          \
     X(WIRES, T, "t", "triangles, and the borders of patches")                                      \
-    X(COLOURS, C, "c", "colours: materials, levels, classes, normals, uv, clay")           \
+    X(COLOURS, C, "c", "colours: materials, levels, classes, normals, uv, clay")                   \
     X(FLAT, F, "f", "flat or smooth shading")                                                      \
     X(CONTROLS, P, "p", "the control mesh")                                                        \
     X(LIGHT, I, "i", "light per pixel, or the runtime's: interpolated, exact")                     \

@@ -802,9 +802,8 @@ limn_base limn_base_build(const limn_pack *pack, const limn_mesh *mesh, void *me
 
 /// Whether level 0 is enough in all views for a mesh within a box: all levels that
 /// limn_plan_build() chooses by `desc` are 0 then, unless edges are longer than in the bind pose.
-/// Never where `min_level` is more; the vertex budget is not asked, nor with LIMN_LOD_ERROR a negative
-/// bias. Does not allocate, never fails;
-/// any thread.
+/// Never where `min_level` is more; the vertex budget is not asked, nor with LIMN_LOD_ERROR a
+/// negative bias. Does not allocate, never fails; any thread.
 ///
 /// box    [2][3], min and max of the control points, in the space of the views
 /// views  [view_count], see limn_plan_build()

@@ -273,7 +273,8 @@ static void test_numbers(const glb *good) {
     o = read_with(good, last, projective, sizeof last);
     expect_refusal(&o, "skin 0 'body': the last row of inverse bind matrix 1 is not 0, 0, 0, 1");
     o = read_with(good, times, backwards, sizeof times);
-    expect_refusal(&o, "animation 0 'bend', channel 3: time 1 is negative, not finite, or not after");
+    expect_refusal(&o,
+                   "animation 0 'bend', channel 3: time 1 is negative, not finite, or not after");
     o = read_with(good, place, far_place, sizeof place);
     expect_refusal(&o,
                    "'lid positions' (POSITION of mesh 0 'tube', primitive 1): element 0 is not");
